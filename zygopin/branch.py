@@ -1,0 +1,191 @@
+"""The branch: a solid circular cylinder in any pose, and its projection."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from zygopin import checks
+from zygopin.errors import ParameterError
+
+BASE_SLACK = 1e-9
+"""How far the base may lie inside, relative to the radius: rounding of a base that
+sits on the bark."""
+
+
+def branch_axis(yaw: float = 0.0, pitch: float = 0.0) -> NDArray[np.float64]:
+    """Direction of a branch: the y axis pitched about x, then turned about z.
+
+    Args:
+        yaw: Turn about z [rad].
+        pitch: Rise of the +y end above the horizontal [rad].
+
+    Returns:
+        Unit axis, shape (3,).
+
+    Raises:
+        ParameterError: An angle is not finite.
+    """
+    yaw, pitch = checks.number("yaw", yaw), checks.number("pitch", pitch)
+    level = math.cos(pitch)
+    return np.array([-math.sin(yaw) * level, math.cos(yaw) * level, math.sin(pitch)])
+
+
+@dataclass(frozen=True, eq=False)
+class Branch:
+    """A solid cylinder (MODEL.md, section 4), or a batch of them.
+
+    Radius, centre, axis and length broadcast against one another; their common
+    leading axes are the batch, and broadcast against the controls' batch.
+
+    Attributes:
+        radius: Radius r > 0 [m], shape (…).
+        centre: A point of the axis, midway along a finite branch [m], shape (…, 3).
+        axis: Direction; stored as a unit vector, shape (…, 3).
+        length: Length [m], shape (…); None: infinite.
+    """
+
+    radius: float | NDArray[np.float64]
+    centre: NDArray[np.float64]
+    axis: NDArray[np.float64] = dataclasses.field(
+        default_factory=lambda: np.array([0.0, 1.0, 0.0])
+    )
+    length: float | NDArray[np.float64] | None = None
+
+    def __init__(
+        self,
+        radius: ArrayLike,
+        centre: ArrayLike,
+        axis: ArrayLike = (0.0, 1.0, 0.0),
+        length: ArrayLike | None = None,
+    ) -> None:
+        centre = checks.array("branch.centre", centre, last=3)
+        self._set("radius", _positive("branch.radius", radius))
+        self._set("centre", _read_only(centre))
+        self._set("axis", _read_only(_unit(checks.array("branch.axis", axis, last=3))))
+        if length is not None:
+            length = _positive("branch.length", length)
+        self._set("length", length)
+        _check_batch(self)
+        _check_base(self)
+
+    def _set(self, field: str, value: object) -> None:
+        object.__setattr__(self, field, value)
+
+    @property
+    def batch_shape(self) -> tuple[int, ...]:
+        """The leading axes; () for one branch."""
+        return np.broadcast_shapes(
+            np.shape(self.radius),
+            self.centre.shape[:-1],
+            self.axis.shape[:-1],
+            np.shape(self.half_length),
+        )
+
+    @property
+    def half_length(self) -> NDArray[np.float64]:
+        """Half the length [m], shape (…); infinite where there is no end."""
+        length = np.inf if self.length is None else self.length
+        return np.asarray(length, dtype=float) / 2
+
+    def base_distance(self) -> NDArray[np.float64]:
+        """Distance from the base's origin to the axis line [m], shape (…)."""
+        along = np.einsum("...i,...i->...", self.centre, self.axis)
+        return np.asarray(
+            np.linalg.norm(self.centre - along[..., None] * self.axis, axis=-1)
+        )
+
+    def frame(self, reference: ArrayLike = (1.0, 0.0, 0.0)) -> NDArray[np.float64]:
+        """An orthonormal frame with the axis as its last column.
+
+        The first two columns span the plane onto which fingers are projected
+        (MODEL.md, section 4, "Section").
+
+        Args:
+            reference: Direction near which the first column lies, shape (3,).
+
+        Returns:
+            R_world_branch, shape (…, 3, 3), right-handed.
+        """
+        reference = np.broadcast_to(np.asarray(reference, float), self.axis.shape)
+        along = np.einsum("...i,...i->...", reference, self.axis)[..., None]
+        flat = reference - along * self.axis
+        weak = np.linalg.norm(flat, axis=-1, keepdims=True) < 1e-6
+        spare = np.eye(3)[np.argmin(np.abs(self.axis), axis=-1)]
+        first = np.where(weak, np.cross(self.axis, spare), flat)
+        first = first / np.linalg.norm(first, axis=-1, keepdims=True)
+        return np.stack([first, np.cross(self.axis, first), self.axis], axis=-1)
+
+    def moved_to(self, centre: ArrayLike) -> Branch:
+        """This branch with another centre.
+
+        Args:
+            centre: The new centre [m], shape (…, 3).
+
+        Returns:
+            The new branch.
+
+        Raises:
+            ParameterError: The centre is not finite, or puts the base inside.
+        """
+        return Branch(self.radius, centre, self.axis, self.length)
+
+
+def _positive(name: str, value: ArrayLike) -> float | NDArray[np.float64]:
+    """A positive float, or a read-only array of them."""
+    result = checks.array(name, value)
+    remedy = "give metres, such as 0.008 for 8 mm"
+    checks.require(name, result, result > 0, "a positive number", remedy)
+    return float(result) if result.ndim == 0 else _read_only(result)
+
+
+def _unit(axis: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The axis scaled to length 1, exactly itself where it has it already."""
+    norm = np.linalg.norm(axis, axis=-1)
+    remedy = "give a direction, such as (0, 1, 0)"
+    checks.require("branch.axis.norm", norm, norm > 0, "positive", remedy)
+    return np.asarray(axis / norm[..., None])
+
+
+def _read_only(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    values.setflags(write=False)
+    return values
+
+
+def _check_batch(branch: Branch) -> None:
+    """The fields' leading axes broadcast."""
+    try:
+        _ = branch.batch_shape
+    except ValueError as error:
+        shapes = (
+            np.shape(branch.radius),
+            branch.centre.shape,
+            branch.axis.shape,
+            np.shape(branch.half_length),
+        )
+        raise ParameterError(
+            "branch: shapes of radius, centre, axis, length",
+            shapes,
+            "broadcastable",
+            "give them equal leading axes",
+        ) from error
+
+
+def _check_base(branch: Branch) -> None:
+    """The base, the origin of the foot, lies outside the solid."""
+    along = np.abs(np.einsum("...i,...i->...", branch.centre, branch.axis))
+    distance, along, half, radius = np.broadcast_arrays(
+        branch.base_distance(), along, branch.half_length, branch.radius
+    )
+    outside = (distance >= radius * (1 - BASE_SLACK)) | (along > half)
+    checks.require(
+        "distance of the base from the branch's axis",
+        distance,
+        outside,
+        "at least the branch's radius: the branch holds the base inside it",
+        "move the centre away from the origin, or make the branch thinner",
+    )

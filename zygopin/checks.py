@@ -1,0 +1,143 @@
+"""Checks of numbers at the edge: each returns the value as the type it is used as."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from zygopin.errors import ParameterError
+
+_NAME = re.compile(r"[a-z][a-z0-9_]*")
+
+
+def number(
+    name: str,
+    value: object,
+    *,
+    allowed: str = "a finite number",
+    where: Callable[[float], bool] = lambda _: True,
+    remedy: str = "give a finite number",
+) -> float:
+    """A finite float for which a condition holds.
+
+    Args:
+        name: Name of the parameter, for the message.
+        value: What was given.
+        allowed: What is allowed, in words.
+        where: The condition.
+        remedy: What to do otherwise, in words.
+
+    Returns:
+        The value as a float.
+
+    Raises:
+        ParameterError: The value is not a number, not finite, or fails the condition.
+    """
+    if isinstance(value, (bool, str)) or value is None:
+        raise ParameterError(name, value, allowed, remedy)
+    try:
+        result = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ParameterError(name, value, allowed, remedy) from error
+    if not math.isfinite(result) or not where(result):
+        raise ParameterError(name, value, allowed, remedy)
+    return result
+
+
+def integer(name: str, value: object, low: int, high: int) -> int:
+    """An integer in [low, high].
+
+    Args:
+        name: Name of the parameter, for the message.
+        value: What was given.
+        low: Smallest value allowed.
+        high: Largest value allowed.
+
+    Returns:
+        The value as an int.
+
+    Raises:
+        ParameterError: The value is no integer or out of range.
+    """
+    allowed = f"an integer from {low} to {high}"
+    result = number(
+        name,
+        value,
+        allowed=allowed,
+        where=lambda x: x == int(x) and low <= x <= high,
+        remedy=f"give {allowed}",
+    )
+    return int(result)
+
+
+def array(name: str, value: ArrayLike, *, last: int | None = None) -> NDArray[Any]:
+    """A finite float array, copied.
+
+    Args:
+        name: Name of the parameter, for the message.
+        value: What was given.
+        last: Length of the last axis; None: no demand.
+
+    Returns:
+        A new float array.
+
+    Raises:
+        ParameterError: Not numbers, not finite, or of the wrong shape.
+    """
+    try:
+        result = np.array(value, dtype=float)
+    except (TypeError, ValueError, OverflowError) as error:
+        remedy = "give numbers, in a sequence or an array"
+        raise ParameterError(name, value, "an array of numbers", remedy) from error
+    if last is not None and (result.ndim == 0 or result.shape[-1] != last):
+        allowed = f"of shape (…, {last})"
+        remedy = f"give {last} numbers along the last axis"
+        raise ParameterError(f"{name}.shape", result.shape, allowed, remedy)
+    require(name, result, np.isfinite(result), "finite", "give finite numbers")
+    return result
+
+
+def require(
+    name: str, values: NDArray[Any], good: NDArray[Any], allowed: str, remedy: str
+) -> None:
+    """Raise for the first entry of an array that is not good.
+
+    Args:
+        name: Name of the parameter, for the message.
+        values: The array.
+        good: Which entries are allowed, of the same shape.
+        allowed: What is allowed, in words.
+        remedy: What to do otherwise, in words.
+
+    Raises:
+        ParameterError: Names the first bad entry and its index.
+    """
+    if np.all(good):
+        return
+    index = tuple(int(i) for i in np.argwhere(~np.asarray(good))[0])
+    at = f"[{', '.join(map(str, index))}]" if index else ""
+    raise ParameterError(f"{name}{at}", values[index], allowed, remedy)
+
+
+def identifier(name: str, value: object) -> str:
+    """A name that is safe in XML, in file names and as a key.
+
+    Args:
+        name: Name of the parameter, for the message.
+        value: What was given.
+
+    Returns:
+        The value.
+
+    Raises:
+        ParameterError: Not a lower-case identifier.
+    """
+    if isinstance(value, str) and len(value) <= 40 and _NAME.fullmatch(value):
+        return value
+    allowed = "a lower-case identifier of at most 40 characters"
+    raise ParameterError(name, value, allowed, "use letters a-z, digits and _")

@@ -1,0 +1,95 @@
+"""The errors of zygopin: one root, subclasses that keep the offending values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+from pathlib import Path
+
+
+class ZygopinError(Exception):
+    """Root of every error that zygopin raises on purpose.
+
+    Attributes:
+        exit_code: Exit status of the command line when this error ends it.
+    """
+
+    exit_code = 2
+
+
+class ParameterError(ZygopinError, ValueError):
+    """A value lies outside what is allowed.
+
+    Attributes:
+        name: Name of the parameter, with its index where it is in an array.
+        value: The value that was given.
+        allowed: What is allowed, in words.
+        remedy: What to do about it, in words.
+    """
+
+    def __init__(self, name: str, value: object, allowed: str, remedy: str) -> None:
+        super().__init__(f"{name} = {_shown(value)} is not {allowed}: {remedy}")
+        self.name = name
+        self.value = value
+        self.allowed = allowed
+        self.remedy = remedy
+
+
+class UnknownNameError(ZygopinError, LookupError):
+    """A name (of a preset, a finger, a field) that does not exist.
+
+    Attributes:
+        kind: What the name should name.
+        name: The name that was given.
+        known: The names that exist, in order.
+    """
+
+    def __init__(self, kind: str, name: object, known: Iterable[str]) -> None:
+        self.kind = kind
+        self.name = name
+        self.known = tuple(known)
+        close = get_close_matches(str(name), self.known, n=1)
+        hint = f"did you mean {close[0]!r}? " if close else ""
+        listed = ", ".join(self.known)
+        super().__init__(f"unknown {kind} {_shown(name)}: {hint}choose one of {listed}")
+
+
+class FileError(ZygopinError, OSError):
+    """A file that cannot be read, understood or written.
+
+    Attributes:
+        path: The file.
+        problem: What is wrong with it.
+        remedy: What to do about it.
+    """
+
+    def __init__(self, path: Path | str, problem: str, remedy: str) -> None:
+        super().__init__(f"{path}: {_one_line(problem)}: {remedy}")
+        self.path = Path(path)
+        self.problem = problem
+        self.remedy = remedy
+
+
+class DescriptionError(ZygopinError):
+    """A robot description that does not expand, parse, or fit the foot.
+
+    Attributes:
+        problem: What is wrong with the description.
+        remedy: What to do about it.
+    """
+
+    def __init__(self, problem: str, remedy: str) -> None:
+        super().__init__(f"{_one_line(problem)}: {remedy}")
+        self.problem = problem
+        self.remedy = remedy
+
+
+def _one_line(text: str) -> str:
+    """Text with its white space folded, so that a message stays on one line."""
+    return " ".join(text.split())
+
+
+def _shown(value: object) -> str:
+    """A value as a message shows it: one line, not longer than a line."""
+    text = _one_line(repr(value) if isinstance(value, str) else str(value))
+    return text if len(text) <= 60 else f"{text[:57]}..."

@@ -1,0 +1,64 @@
+"""Foot parameters in YAML files: the shipped presets and the caller's own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from zygopin.errors import FileError, UnknownNameError
+from zygopin.paths import PRESETS_PATH
+
+
+def preset_names() -> tuple[str, ...]:
+    """Names of the shipped presets, sorted."""
+    return tuple(sorted(path.stem for path in PRESETS_PATH.glob("*.yaml")))
+
+
+def read_preset(name: str) -> dict[str, Any]:
+    """The parameters of a shipped preset.
+
+    Args:
+        name: One of `preset_names()`.
+
+    Returns:
+        The file's mapping: the fields of a foot [SI], with `description` and
+        `sources` (where each number comes from).
+
+    Raises:
+        UnknownNameError: There is no preset of that name.
+    """
+    if name not in preset_names():
+        raise UnknownNameError("preset", name, preset_names())
+    return read_parameters(PRESETS_PATH / f"{name}.yaml")
+
+
+def read_parameters(path: Path | str) -> dict[str, Any]:
+    """The mapping that a YAML file of foot parameters holds.
+
+    Args:
+        path: The file.
+
+    Returns:
+        The mapping, not yet checked field by field.
+
+    Raises:
+        FileError: The file cannot be read, is not YAML, or is not one mapping.
+    """
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        problem = getattr(error, "strerror", None) or "not a UTF-8 text file"
+        raise FileError(path, problem, "name a readable YAML file") from error
+    try:
+        content = yaml.safe_load(text)
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        raise FileError(path, f"not YAML: {error}", "mend the syntax") from error
+    if not isinstance(content, Mapping):
+        remedy = (
+            "write one mapping of field names to values; `zygopin presets` has some"
+        )
+        raise FileError(path, f"holds {type(content).__name__}, not a mapping", remedy)
+    return dict(content)
