@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -120,6 +122,37 @@ class Branch:
         first = first / np.linalg.norm(first, axis=-1, keepdims=True)
         return np.stack([first, np.cross(self.axis, first), self.axis], axis=-1)
 
+    def broadcast(self, shape: tuple[int, ...]) -> Branch:
+        """This branch as a flat batch.
+
+        Args:
+            shape: The batch shape to broadcast to.
+
+        Returns:
+            A batch of shape (n,), n the number of entries of `shape`.
+
+        Raises:
+            ValueError: The branch does not broadcast to that shape.
+        """
+        return self._changed(
+            lambda x, tail: np.broadcast_to(x, (*shape, *tail)).reshape(-1, *tail)
+        )
+
+    def __getitem__(self, index: Any) -> Branch:  # noqa: ANN401
+        return self.broadcast(self.batch_shape)._changed(lambda x, _: x[index])
+
+    def _changed(self, change: Callable[[Any, tuple[int, ...]], Any]) -> Branch:
+        """Every field changed alike; entries of a valid batch need no new check."""
+        new = object.__new__(Branch)
+        new._set("radius", _read_only(change(np.asarray(self.radius), ())))
+        new._set("centre", _read_only(change(self.centre, (3,))))
+        new._set("axis", _read_only(change(self.axis, (3,))))
+        length = self.length
+        if length is not None:
+            length = _read_only(change(np.asarray(length), ()))
+        new._set("length", length)
+        return new
+
     def moved_to(self, centre: ArrayLike) -> Branch:
         """This branch with another centre.
 
@@ -152,7 +185,8 @@ def _unit(axis: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _read_only(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    values.setflags(write=False)
+    """The array, or the number taken out of one, read-only."""
+    values.flags.writeable = False
     return values
 
 

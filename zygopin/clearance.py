@@ -1,0 +1,231 @@
+"""Exact engine: distances from bones to branches and to each other, batched."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from zygopin.branch import Branch
+
+Floats = NDArray[np.float64]
+
+PARALLEL = 1e-12
+"""Sine of the angle to the axis below which a bone counts as parallel to it: its
+projection is then a point up to rounding, and any t is as near as another."""
+
+BISECTIONS = 60
+"""Halvings of [0, 1] that bring t below the spacing of doubles."""
+
+
+@dataclass(frozen=True)
+class Clearance:
+    """Where phalanges are nearest to a branch: the record of both engines.
+
+    Attributes:
+        distance: Signed clearance between skin and bark [m], shape (…, P); the
+            depth of the deepest point where negative.
+        t: Position on the line of the bone, 0 at its start and 1 at its end, shape
+            (…, P); outside [0, 1] where the line's nearest point is off the bone.
+        point: Nearest point of the branch's surface [m], shape (…, P, 3).
+        normal: Unit normal there, from the branch outward, shape (…, P, 3).
+        lateral: Whether that point lies on the branch's side, not on an end.
+    """
+
+    distance: Floats
+    t: Floats
+    point: Floats
+    normal: Floats
+    lateral: NDArray[np.bool_]
+
+
+def branch_clearance(bones: Floats, radii: Floats, branch: Branch) -> Clearance:
+    """Clearance between phalanges and branches: MODEL.md, section 4.
+
+    clearance = dist(bone, axis line) − r − εₖ, and the distance to the capped
+    cylinder where the end of a finite branch is nearer than its side.
+
+    Args:
+        bones: Bones [m], shape (…, P, 2, 3).
+        radii: Skin radii εₖ [m], shape (P,).
+        branch: The branch, or a batch of them that broadcasts against the bones'.
+
+    Returns:
+        The record, with the common batch shape. Exact up to rounding.
+    """
+    pose = _Relative.of(bones, branch)
+    t_line = pose.nearest_on_line()
+    t = np.clip(t_line, 0.0, 1.0)
+    radial, axial = pose.radial(t), pose.axial(t)
+    gap = _norm(radial) - pose.radius
+    lateral = np.abs(axial) - pose.half <= np.minimum(gap, 0.0)
+    normal = _radial_normal(radial, pose)
+    if not lateral.all():
+        ends = ~lateral
+        part = pose.select(ends)
+        t_line[ends], gap[ends], normal[ends], lateral[ends] = _end_clearance(part)
+        t = np.clip(t_line, 0.0, 1.0)
+    skin = pose.start + t[..., None] * pose.bone
+    point = pose.centre + skin - gap[..., None] * normal
+    return Clearance(gap - radii, t_line, point, normal, lateral)
+
+
+def segment_distance(first: Floats, second: Floats) -> Floats:
+    """Distance between segments.
+
+    Args:
+        first: Segments [m], shape (…, 2, 3).
+        second: Segments [m], shape (…, 2, 3).
+
+    Returns:
+        Distances [m], shape (…).
+    """
+    p, u = first[..., 0, :], first[..., 1, :] - first[..., 0, :]
+    q, v = second[..., 0, :], second[..., 1, :] - second[..., 0, :]
+    w = p - q
+    uu, vv, uv, uw, vw = dot(u, u), dot(v, v), dot(u, v), dot(u, w), dot(v, w)
+    determinant = uu * vv - uv * uv
+    crossing = determinant > PARALLEL * uu * vv
+    s = np.divide(uv * vw - uw * vv, determinant, np.zeros_like(uv), where=crossing)
+    t = np.clip((uv * np.clip(s, 0, 1) + vw) / vv, 0, 1)
+    s = np.clip((uv * t - uw) / uu, 0, 1)
+    return _norm(w + s[..., None] * u - t[..., None] * v)
+
+
+def skin_distance(
+    bones: Floats, radii: Floats, pairs: tuple[NDArray[np.intp], NDArray[np.intp]]
+) -> Floats:
+    """Distance between the skins of pairs of phalanges.
+
+    Args:
+        bones: Bones [m], shape (…, P, 2, 3).
+        radii: Skin radii [m], shape (P,).
+        pairs: Indices of the first and of the second phalanges, shape (M,) each.
+
+    Returns:
+        Signed distances [m], shape (…, M): negative where skins overlap.
+    """
+    i, j = pairs
+    cores = segment_distance(bones[..., i, :, :], bones[..., j, :, :])
+    return cores - radii[i] - radii[j]
+
+
+@dataclass(frozen=True)
+class _Relative:
+    """Bones seen from the branch: every field broadcast to the batch (…, P)."""
+
+    centre: Floats
+    axis: Floats
+    radius: Floats
+    half: Floats
+    start: Floats
+    bone: Floats
+    start_axial: Floats
+    bone_axial: Floats
+
+    @classmethod
+    def of(cls, bones: Floats, branch: Branch) -> _Relative:
+        shape = np.broadcast_shapes(bones.shape[:-3], branch.batch_shape)
+        shape = (*shape, bones.shape[-3])
+        vectors = (branch.centre[..., None, :], branch.axis[..., None, :])
+        centre, axis = (np.broadcast_to(x, (*shape, 3)) for x in vectors)
+        scalars = (np.asarray(branch.radius), branch.half_length)
+        radius, half = (np.broadcast_to(x[..., None], shape) for x in scalars)
+        start = bones[..., 0, :] - centre
+        bone = np.broadcast_to(bones[..., 1, :] - bones[..., 0, :], start.shape)
+        return cls(
+            centre, axis, radius, half, start, bone, dot(start, axis), dot(bone, axis)
+        )
+
+    def select(self, mask: NDArray[np.bool_]) -> _Relative:
+        """The bones of a mask, as one flat batch."""
+        return _Relative(*(getattr(self, name)[mask] for name in self.__annotations__))
+
+    def radial(self, t: Floats) -> Floats:
+        """From the axis to the bone's point at t, perpendicular to the axis."""
+        return (
+            self.start
+            - self.start_axial[..., None] * self.axis
+            + t[..., None] * self.projected()
+        )
+
+    def axial(self, t: Floats) -> Floats:
+        """Coordinate along the axis of the bone's point at t."""
+        return self.start_axial + t * self.bone_axial
+
+    def projected(self) -> Floats:
+        """The bone projected along the axis."""
+        return self.bone - self.bone_axial[..., None] * self.axis
+
+    def nearest_on_line(self) -> Floats:
+        """Where the bone's line is nearest to the axis; midway where parallel."""
+        flat = self.projected()
+        square = dot(flat, flat)
+        turned = square > PARALLEL**2 * dot(self.bone, self.bone)
+        middle = np.full_like(square, 0.5)
+        return np.divide(-dot(self.start, flat), square, middle, where=turned)
+
+
+def _radial_normal(radial: Floats, pose: _Relative) -> Floats:
+    """Unit vectors away from the axis; across the bone where it meets the axis."""
+    length = _norm(radial)
+    on_axis = length <= PARALLEL * pose.radius
+    if on_axis.any():
+        flat = pose.projected()[on_axis]
+        axis = pose.axis[on_axis]
+        spare = np.eye(3)[np.argmin(np.abs(axis), axis=-1)]
+        parallel = _norm(flat) <= PARALLEL * _norm(pose.bone[on_axis])
+        across = np.cross(axis, np.where(parallel[..., None], spare, flat))
+        radial, length = radial.copy(), length.copy()
+        radial[on_axis], length[on_axis] = across, _norm(across)
+    return np.asarray(radial / length[..., None])
+
+
+def _end_clearance(pose: _Relative) -> tuple[Floats, Floats, Floats, Any]:
+    """Nearest points where the side does not decide: bones in a flat batch (n,).
+
+    The signed distance to a convex solid is convex along a bone, so bisection on
+    the sign of its slope finds the least.
+
+    Args:
+        pose: The bones.
+
+    Returns:
+        t in [0, 1], gap of the bone [m], unit normal (n, 3), whether lateral.
+    """
+    low, high = np.zeros(len(pose.radius)), np.ones(len(pose.radius))
+    for _ in range(BISECTIONS):
+        t = (low + high) / 2
+        _, normal, _ = _solid_distance(pose, t)
+        rising = dot(normal, pose.bone) > 0
+        low, high = np.where(rising, low, t), np.where(rising, t, high)
+    t = (low + high) / 2
+    gap, normal, lateral = _solid_distance(pose, t)
+    return t, gap, normal, lateral
+
+
+def _solid_distance(pose: _Relative, t: Floats) -> tuple[Floats, Floats, Any]:
+    """Signed distance of a point to the capped cylinder, its gradient, its face."""
+    radial, axial = pose.radial(t), pose.axial(t)
+    outward = _radial_normal(radial, pose)
+    endward = np.sign(axial)[..., None] * pose.axis
+    side, end = _norm(radial) - pose.radius, np.abs(axial) - pose.half
+    rim = (side > 0) & (end > 0)
+    corner = side[..., None] * outward + end[..., None] * endward
+    gap = np.where(rim, np.hypot(side, end), np.maximum(side, end))
+    flat = np.where((side >= end)[..., None], outward, endward)
+    safe = np.where(rim, gap, 1.0)
+    normal = np.where(rim[..., None], corner / safe[..., None], flat)
+    return gap, normal, ~rim & (side >= end)
+
+
+def dot(first: Floats, second: Floats) -> Floats:
+    """Scalar products along the last axis."""
+    return np.asarray(np.einsum("...i,...i->...", first, second))
+
+
+def _norm(vectors: Floats) -> Floats:
+    """Lengths along the last axis."""
+    return np.sqrt(dot(vectors, vectors))

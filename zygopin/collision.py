@@ -1,0 +1,238 @@
+"""FCL engine: the answers of the exact engine from python-fcl's distance queries.
+
+How FCL is asked follows from how it answers: capsules against capsules are exact,
+so a branch is a long capsule wherever its end is out of reach; lengths are in units
+of the foot, since FCL's tolerances are absolute; normals come from nearest points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+
+import fcl
+import numpy as np
+from numpy.typing import NDArray
+
+from zygopin.branch import Branch
+from zygopin.clearance import Clearance, Floats, dot
+
+REACH = 2.0
+"""Half-length of the capsule that stands for a branch, in units of the foot's
+reach: its caps stay out of reach."""
+
+SHRUNK = 0.5
+"""Share of the radius at which nearest points are asked for: at contact the gap
+of the true solids vanishes and with it the direction; this one's does not."""
+
+COINCIDENT = 1e-12
+"""Gap, in units of the foot, below which nearest points have no direction."""
+
+SIDEWAYS = 1e-6
+"""Axial part of a normal below which it belongs to a branch's side: the accuracy
+of FCL's normals on a capped cylinder."""
+
+CLAMPED = 1e-9
+"""How near to 0 or 1 rounding leaves the t of a nearest point at a bone's end."""
+
+Solids = Sequence[fcl.CollisionObject]
+
+
+def branch_clearance(bones: Floats, radii: Floats, branch: Branch) -> Clearance:
+    """Clearance between phalanges and branches, by FCL.
+
+    Args:
+        bones: Bones [m], shape (…, P, 2, 3).
+        radii: Skin radii εₖ [m], shape (P,).
+        branch: The branch, or a batch of them that broadcasts against the bones'.
+
+    Returns:
+        The record of the exact engine. Where a finite branch's end is nearer than
+        its side, the accuracy is that of FCL's capsule against cylinder.
+    """
+    batch = np.broadcast_shapes(bones.shape[:-3], branch.batch_shape)
+    shape = (*batch, bones.shape[-3])
+    unit = _unit(bones)
+    rows = _Rows.of(bones / unit, radii / unit, branch, unit)
+    record = _at_side(rows, branch.batch_shape == ())
+    ends = ~record.lateral
+    if ends.any():
+        at_end = _at_end(rows.select(ends))
+        for field in fields(Clearance):
+            getattr(record, field.name)[ends] = getattr(at_end, field.name)
+    return Clearance(
+        record.distance.reshape(shape) * unit,
+        record.t.reshape(shape),
+        record.point.reshape(*shape, 3) * unit,
+        record.normal.reshape(*shape, 3),
+        record.lateral.reshape(shape),
+    )
+
+
+def skin_distance(
+    bones: Floats, radii: Floats, pairs: tuple[NDArray[np.intp], NDArray[np.intp]]
+) -> Floats:
+    """Distance between the skins of pairs of phalanges, by FCL.
+
+    Args:
+        bones: Bones [m], shape (…, P, 2, 3).
+        radii: Skin radii [m], shape (P,).
+        pairs: Indices of the first and of the second phalanges, shape (M,) each.
+
+    Returns:
+        Signed distances [m], shape (…, M): negative where skins overlap.
+    """
+    unit, count = _unit(bones), bones.shape[-3]
+    flat = bones.reshape(-1, count, 2, 3) / unit
+    skins = np.broadcast_to(radii / unit, flat.shape[:2])
+    solids = _capsules(flat.reshape(-1, 2, 3), skins.ravel())
+    starts = range(0, len(solids), count)
+    first = [solids[start + i] for start in starts for i in pairs[0]]
+    second = [solids[start + j] for start in starts for j in pairs[1]]
+    distance, _, _ = _nearest(first, second, signed=False)
+    return distance.reshape(*bones.shape[:-3], len(pairs[0])) * unit
+
+
+@dataclass(frozen=True)
+class _Rows:
+    """Phalanges and their branches in units of the foot, one row each."""
+
+    bone: Floats
+    skin: Floats
+    centre: Floats
+    axis: Floats
+    radius: Floats
+    half: Floats
+
+    @classmethod
+    def of(cls, bones: Floats, radii: Floats, branch: Branch, unit: float) -> _Rows:
+        batch = np.broadcast_shapes(bones.shape[:-3], branch.batch_shape)
+        shape = (*batch, bones.shape[-3])
+        radius = np.asarray(branch.radius)[..., None] / unit
+        return cls(
+            np.broadcast_to(bones, (*shape, 2, 3)).reshape(-1, 2, 3),
+            np.broadcast_to(radii, shape).ravel(),
+            np.broadcast_to(branch.centre[..., None, :], (*shape, 3)).reshape(-1, 3)
+            / unit,
+            np.broadcast_to(branch.axis[..., None, :], (*shape, 3)).reshape(-1, 3),
+            np.broadcast_to(radius, shape).ravel(),
+            np.broadcast_to(branch.half_length[..., None] / unit, shape).ravel(),
+        )
+
+    def select(self, mask: NDArray[np.bool_] | slice) -> _Rows:
+        """Some of the rows."""
+        return _Rows(*(getattr(self, field.name)[mask] for field in fields(self)))
+
+    def stem(self) -> Floats:
+        """Core segments of the capsules that stand for the branches, (n, 2, 3)."""
+        below = self.centre - dot(self.centre, self.axis)[:, None] * self.axis
+        return np.stack([below - REACH * self.axis, below + REACH * self.axis], 1)
+
+
+def _at_side(rows: _Rows, single: bool) -> Clearance:
+    """Nearest points on the branches' sides, `lateral` where there is such a side.
+
+    Args:
+        rows: The phalanges and branches.
+        single: Whether all rows have the same branch: one object then serves all.
+    """
+    phalanges = _capsules(rows.bone, rows.skin)
+    some = rows.select(slice(0, 1)) if single else rows
+    repeat = len(phalanges) if single else 1
+    stem = some.stem()
+    sides = _capsules(stem, some.radius) * repeat
+    slims = _capsules(stem, SHRUNK * some.radius) * repeat
+    distance, _, _ = _nearest(phalanges, sides, signed=False)
+    gap, near, far = _nearest(phalanges, slims, signed=False)
+
+    t, core = _core(rows.bone, near)
+    normal = _direction(near - far, gap, rows)
+    axial = dot(core - rows.centre, rows.axis)
+    lateral = np.abs(axial) - rows.half <= np.minimum(distance + rows.skin, 0.0)
+    point = rows.centre + axial[:, None] * rows.axis + rows.radius[:, None] * normal
+    offset = (distance + rows.radius + rows.skin)[:, None] * normal
+    return Clearance(distance, _on_line(t, offset, rows), point, normal, lateral)
+
+
+def _at_end(rows: _Rows) -> Clearance:
+    """Nearest points on the capped cylinders: bare bones, so that gaps stay open."""
+    bare = _capsules(rows.bone, np.zeros_like(rows.skin))
+    frames = _quaternions(rows.axis)
+    shapes = map(fcl.Cylinder, rows.radius, 2 * rows.half)
+    solids = [*map(_placed, shapes, frames, rows.centre)]
+    gap, near, far = _nearest(bare, solids, signed=True)
+    normal = _direction(near - far, gap, rows)
+    t, _ = _core(rows.bone, near)
+    lateral = np.abs(dot(normal, rows.axis)) < SIDEWAYS
+    return Clearance(gap - rows.skin, t, far, normal, lateral)
+
+
+def _capsules(bones: Floats, radii: Floats) -> list[fcl.CollisionObject]:
+    """Bones with skins of given radii, (n, 2, 3) and (n,)."""
+    lines = bones[:, 1] - bones[:, 0]
+    lengths = np.sqrt(dot(lines, lines))
+    frames = _quaternions(lines / lengths[:, None])
+    return [*map(_placed, map(fcl.Capsule, radii, lengths), frames, bones.mean(1))]
+
+
+def _placed(shape: object, frame: Floats, centre: Floats) -> fcl.CollisionObject:
+    """A shape in its place; setters cost half of what a Transform does."""
+    solid = fcl.CollisionObject(shape)
+    solid.setQuatRotation(frame)
+    solid.setTranslation(centre)
+    return solid
+
+
+def _nearest(
+    first: Solids, second: Solids, *, signed: bool
+) -> tuple[Floats, Floats, Floats]:
+    """Distances of pairs of solids and the nearest points of both."""
+    request = fcl.DistanceRequest(True, signed)
+    table = np.empty((len(first), 7))
+    for row, one, other in zip(table, first, second, strict=True):
+        result = fcl.DistanceResult()
+        row[0] = fcl.distance(one, other, request, result)
+        row[1:4], row[4:7] = result.nearest_points
+    return table[:, 0], table[:, 1:4], table[:, 4:7]
+
+
+def _quaternions(directions: Floats) -> Floats:
+    """Rotations (w, x, y, z) that take the z axis to unit directions, (n, 4)."""
+    x, y, z = directions.T
+    flat = np.zeros_like(z)
+    rising = np.stack([1 + z, -y, x, flat], axis=1)
+    falling = np.stack([x, flat, 1 - z, y], axis=1)
+    turn = np.where((z >= 0)[:, None], rising, falling)
+    return np.asarray(turn / np.linalg.norm(turn, axis=1, keepdims=True))
+
+
+def _core(bones: Floats, points: Floats) -> tuple[Floats, Floats]:
+    """The bones' own points nearest to given points: t in [0, 1], and the points."""
+    lines = bones[:, 1] - bones[:, 0]
+    t = np.clip(dot(points - bones[:, 0], lines) / dot(lines, lines), 0.0, 1.0)
+    return t, bones[:, 0] + t[:, None] * lines
+
+
+def _direction(offsets: Floats, gaps: Floats, rows: _Rows) -> Floats:
+    """Unit vectors from branch to phalanx; across both where they cross."""
+    across = np.cross(rows.axis, rows.bone[:, 1] - rows.bone[:, 0])
+    apart = (np.abs(gaps) > COINCIDENT)[:, None]
+    vectors = np.where(apart, np.sign(gaps)[:, None] * offsets, across)
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=1, keepdims=True))
+
+
+def _on_line(t: Floats, offsets: Floats, rows: _Rows) -> Floats:
+    """From the nearest point of the bone to that of its line: one Newton step.
+
+    The squared distance from the axis is a parabola along the line, so its slope
+    at t gives the vertex. Inside the bone the slope is zero but for rounding.
+    """
+    lines = rows.bone[:, 1] - rows.bone[:, 0]
+    square = dot(lines, lines) - dot(lines, rows.axis) ** 2
+    clamped = (np.abs(t - 0.5) > 0.5 - CLAMPED) & (square > 0)
+    return t - np.divide(dot(offsets, lines), square, np.zeros_like(t), where=clamped)
+
+
+def _unit(bones: Floats) -> float:
+    """The farthest that any junction is from the base: the unit of length."""
+    return float(np.sqrt(dot(bones, bones).max()))

@@ -1,0 +1,363 @@
+"""Verdicts: is the foot stable on a branch, does it grasp it, is the pose feasible."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from functools import partial
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from zygopin import checks, clearance
+from zygopin.branch import Branch
+from zygopin.clearance import Clearance, Floats
+from zygopin.errors import ParameterError, UnknownNameError
+from zygopin.foot import Foot
+from zygopin.kinematics import Controls, as_controls, forward_kinematics
+
+Reading = Literal["section", "base_to_tip"]
+EngineName = Literal["exact", "fcl"]
+Booleans = NDArray[np.bool_]
+
+READINGS: tuple[Reading, ...] = ("section", "base_to_tip")
+ENGINES: tuple[EngineName, ...] = ("exact", "fcl")
+
+TOLERANCE = 1e-6
+"""Contact tolerance over the foot's size: controls written with seven decimals
+keep a contact, and a parrot's toe is placed to 60 nm."""
+
+PARAMETER_SLACK = 1e-9
+"""Slack on t in [0, 1] and on the sign of the scalar product: rounding."""
+
+BLOCK = 4096
+"""Configurations worked on at once: intermediate arrays stay in the cache."""
+
+
+@dataclass(frozen=True)
+class Criteria:
+    """What counts as contact and as a grasp.
+
+    Attributes:
+        reading: Which scalar product decides on a grasp (MODEL.md, section 5).
+        tolerance: Contact tolerance [m]; None: `TOLERANCE` times the foot's size.
+    """
+
+    reading: Reading = "section"
+    tolerance: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.reading not in READINGS:
+            raise UnknownNameError("reading", self.reading, READINGS)
+        if self.tolerance is not None:
+            remedy = "give metres, such as 1e-8"
+            checks.number(
+                "tolerance",
+                self.tolerance,
+                allowed="a positive number",
+                where=lambda x: x > 0,
+                remedy=remedy,
+            )
+
+    def metres(self, foot: Foot) -> float:
+        """The tolerance for a foot [m]."""
+        return TOLERANCE * foot.size if self.tolerance is None else self.tolerance
+
+
+@dataclass(frozen=True)
+class Engine:
+    """One route from controls to distances.
+
+    Attributes:
+        name: `exact` or `fcl`.
+        bones: Controls (…, P) to bones (…, P, 2, 3).
+        branch_clearance: Bones, radii and branch to a `Clearance`.
+        skin_distance: Bones, radii and pairs to distances (…, M).
+    """
+
+    name: str
+    bones: Callable[[Floats], Floats]
+    branch_clearance: Callable[[Floats, Floats, Branch], Clearance]
+    skin_distance: Callable[[Floats, Floats, Any], Floats]
+
+
+def make_engine(name: str, foot: Foot) -> Engine:
+    """An engine for a foot, to be used for any number of checks.
+
+    The two share nothing: `exact` is closed form throughout, `fcl` goes through the
+    URDF, Pinocchio and FCL.
+
+    Args:
+        name: `exact` or `fcl`.
+        foot: The foot.
+
+    Returns:
+        The engine.
+
+    Raises:
+        UnknownNameError: There is no engine of that name.
+    """
+    if name == "exact":
+        return Engine(
+            name,
+            partial(forward_kinematics, foot),
+            clearance.branch_clearance,
+            clearance.skin_distance,
+        )
+    if name != "fcl":
+        raise UnknownNameError("engine", name, ENGINES)
+    from zygopin import collision  # FCL and Pinocchio take a quarter of a second
+    from zygopin.model import FootModel
+
+    return Engine(
+        name,
+        FootModel(foot).forward,
+        collision.branch_clearance,
+        collision.skin_distance,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class GraspReport:
+    """Verdicts with the evidence for them; P phalanges, `…` the batch.
+
+    Attributes:
+        foot: The foot.
+        controls: The controls, shape (…, P).
+        branch: The branch, or the batch of them.
+        tolerance: Contact tolerance [m].
+        bones: Bones [m], shape (…, P, 2, 3).
+        clearance: Signed clearance of each phalanx [m], shape (…, P).
+        t: Where the line of the bone is nearest, 0 to 1 on the bone, shape (…, P).
+        point: Nearest points of the branch [m], shape (…, P, 3).
+        normal: Unit normals of the branch there, outward, shape (…, P, 3).
+        touching: |clearance| ≤ tolerance, shape (…, P).
+        tangent: Touching inside the bone, on the branch's side, shape (…, P).
+        penetrating: clearance < −tolerance, shape (…, P).
+        finger_clearance: Least distance between two fingers' skins [m], shape (…).
+        stable: Two opposable fingers are tangent, shape (…).
+        grasping: Stable, and the reading's scalar product is ≤ 0, shape (…).
+        feasible: Nothing penetrates: neither the branch nor another finger.
+        scalar_product: Least product of contact normals over tangent phalanges of
+            opposable fingers, shape (…); NaN without such a pair.
+        scalar_product_base_to_tip: The same of the phalanges' directions.
+    """
+
+    foot: Foot
+    controls: Floats
+    branch: Branch
+    tolerance: float
+    bones: Floats
+    clearance: Floats
+    t: Floats
+    point: Floats
+    normal: Floats
+    touching: Booleans
+    tangent: Booleans
+    penetrating: Booleans
+    finger_clearance: Floats
+    stable: Booleans
+    grasping: Booleans
+    feasible: Booleans
+    scalar_product: Floats
+    scalar_product_base_to_tip: Floats
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if isinstance(value, (np.ndarray, np.generic)):
+                value = np.array(value)
+                value.setflags(write=False)
+                object.__setattr__(self, field.name, value)
+
+    def difference(self, other: GraspReport) -> float:
+        """Largest difference of clearances, the report's check by another engine.
+
+        Args:
+            other: A report on the same controls and branch.
+
+        Returns:
+            The largest |difference| over branch and finger clearances [m].
+        """
+        apart = np.abs(self.clearance - other.clearance)
+        both = np.isfinite(self.finger_clearance) & np.isfinite(other.finger_clearance)
+        fingers = np.where(both, self.finger_clearance - other.finger_clearance, 0.0)
+        return float(max(apart.max(), np.abs(fingers).max()))
+
+
+def check_grasp(
+    foot: Foot,
+    controls: Controls,
+    branch: Branch,
+    *,
+    engine: EngineName | Engine = "exact",
+    criteria: Criteria | None = None,
+) -> GraspReport:
+    """Verdicts for given controls on a branch: MODEL.md, sections 4 and 5.
+
+    Args:
+        foot: The foot.
+        controls: Controls in [0, 1], shape (…, P), or {finger name: sequence}.
+        branch: A branch, or a batch that broadcasts against the controls'.
+        engine: `exact`, `fcl`, or an engine made for this foot, for repeated use.
+        criteria: What counts as contact and as a grasp; None: the defaults.
+
+    Returns:
+        The report, batched.
+
+    Raises:
+        ParameterError: A control is outside [0, 1], or shapes do not fit.
+        UnknownNameError: A finger, engine or reading does not exist.
+    """
+    values = as_controls(foot, controls)
+    criteria = criteria or Criteria()
+    made = make_engine(engine, foot) if isinstance(engine, str) else engine
+    batch = _batch_shape(values, branch)
+    count = int(np.prod(batch, dtype=int))
+    if count <= BLOCK:
+        return _report(foot, values, branch, made, criteria)
+    flat = np.broadcast_to(values, (*batch, foot.phalanx_count))
+    flat = flat.reshape(count, foot.phalanx_count)
+    branches = branch.broadcast(batch) if branch.batch_shape else None
+    parts = []
+    for start in range(0, count, BLOCK):
+        block = slice(start, start + BLOCK)
+        local = branches[block] if branches is not None else branch
+        parts.append(_report(foot, flat[block], local, made, criteria))
+    return _joined(parts, branch, batch)
+
+
+def _report(
+    foot: Foot, controls: Floats, branch: Branch, engine: Engine, criteria: Criteria
+) -> GraspReport:
+    """The report on one block."""
+    tolerance = criteria.metres(foot)
+    bones = engine.bones(controls)
+    near = engine.branch_clearance(bones, foot.radii, branch)
+    contacts = classify(near, tolerance)
+    apart = _finger_clearance(foot, bones, engine)
+    apart = np.broadcast_to(apart, near.distance.shape[:-1]).copy()
+    return GraspReport(
+        foot=foot,
+        controls=controls,
+        branch=branch,
+        tolerance=tolerance,
+        bones=bones,
+        clearance=near.distance,
+        t=near.t,
+        point=near.point,
+        normal=near.normal,
+        finger_clearance=apart,
+        **contacts._asdict(),
+        **_verdicts(foot, bones, near, apart, criteria),
+    )
+
+
+class Contacts(NamedTuple):
+    """How each phalanx meets the branch: MODEL.md, section 4.
+
+    Attributes:
+        touching: |clearance| ≤ tolerance, shape (…, P).
+        tangent: Touching inside the bone, on the branch's side, shape (…, P).
+        penetrating: clearance < −tolerance, shape (…, P).
+    """
+
+    touching: Booleans
+    tangent: Booleans
+    penetrating: Booleans
+
+
+def classify(near: Clearance, tolerance: float) -> Contacts:
+    """Tell touches, tangencies and penetrations apart: MODEL.md, section 4.
+
+    Args:
+        near: The nearest points, shape (…, P).
+        tolerance: Contact tolerance [m].
+
+    Returns:
+        The three masks.
+    """
+    touching = np.abs(near.distance) <= tolerance
+    inside = np.abs(near.t - 0.5) <= 0.5 + PARAMETER_SLACK
+    return Contacts(
+        touching, touching & inside & near.lateral, near.distance < -tolerance
+    )
+
+
+def _verdicts(
+    foot: Foot, bones: Floats, near: Clearance, apart: Floats, criteria: Criteria
+) -> dict[str, Any]:
+    """Verdicts and scalar products: MODEL.md, section 5."""
+    tolerance = criteria.metres(foot)
+    contacts = classify(near, tolerance)
+    lines = bones[..., 1, :] - bones[..., 0, :]
+    lines = lines / np.linalg.norm(lines, axis=-1, keepdims=True)
+    section = _least_product(foot, near.normal, contacts.tangent)
+    base_to_tip = _least_product(foot, lines, contacts.tangent)
+    decisive = section if criteria.reading == "section" else base_to_tip
+    # Bare bones that cross have no depth: their distance is zero, not negative.
+    least = -tolerance if foot.thickness > 0 else tolerance
+    return {
+        "stable": np.isfinite(decisive),
+        "grasping": np.nan_to_num(decisive, nan=np.inf) <= PARAMETER_SLACK,
+        "feasible": ~contacts.penetrating.any(axis=-1) & (apart >= least),
+        "scalar_product": section,
+        "scalar_product_base_to_tip": base_to_tip,
+    }
+
+
+def _finger_clearance(foot: Foot, bones: Floats, engine: Engine) -> Floats:
+    """Least distance between the skins of two fingers; infinite for one finger.
+
+    First phalanges share the base junction, so they are not held against each other.
+    """
+    i, j = np.triu_indices(foot.phalanx_count, 1)
+    finger, rank = foot.finger_of_phalanx, foot.rank_of_phalanx
+    apart = (finger[i] != finger[j]) & (rank[i] + rank[j] > 2)
+    pairs = (i[apart], j[apart])
+    if not apart.any():
+        return np.full(bones.shape[:-3], np.inf)
+    return np.asarray(engine.skin_distance(bones, foot.radii, pairs).min(axis=-1))
+
+
+def _least_product(foot: Foot, vectors: Floats, tangent: Booleans) -> Floats:
+    """Least scalar product over tangent phalanges of opposable fingers, else NaN."""
+    finger = foot.finger_of_phalanx
+    opposed = np.zeros((foot.phalanx_count,) * 2, dtype=bool)
+    for one, other in foot.opposable_pairs:
+        opposed |= (finger[:, None] == one) & (finger == other)
+    i, j = np.nonzero(opposed)
+    products = np.einsum("...i,...i->...", vectors[..., i, :], vectors[..., j, :])
+    both = tangent[..., i] & tangent[..., j]
+    least = np.where(both, products, np.inf).min(axis=-1, initial=np.inf)
+    return np.where(np.isfinite(least), least, np.nan)
+
+
+def _batch_shape(controls: Floats, branch: Branch) -> tuple[int, ...]:
+    """The common batch shape of controls and branch."""
+    shapes = controls.shape[:-1], branch.batch_shape
+    try:
+        return np.broadcast_shapes(*shapes)
+    except ValueError as error:
+        raise ParameterError(
+            "batch shapes of controls and branch",
+            shapes,
+            "broadcastable",
+            "give them equal leading axes",
+        ) from error
+
+
+def _joined(
+    parts: list[GraspReport], branch: Branch, batch: tuple[int, ...]
+) -> GraspReport:
+    """The blocks' reports as one, in the shape of the batch."""
+    arrays: dict[str, Any] = {
+        field.name: np.concatenate([getattr(part, field.name) for part in parts])
+        for field in fields(GraspReport)
+        if isinstance(getattr(parts[0], field.name), np.ndarray)
+    }
+    shaped: dict[str, Any] = {
+        name: x.reshape(*batch, *x.shape[1:]) for name, x in arrays.items()
+    }
+    return replace(parts[0], branch=branch, **shaped)

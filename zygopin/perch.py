@@ -1,0 +1,245 @@
+"""Planner: from a branch to the controls with which the foot perches on it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from zygopin import checks
+from zygopin.branch import Branch
+from zygopin.clearance import Floats, segment_distance
+from zygopin.errors import ParameterError
+from zygopin.foot import Foot
+from zygopin.grasp import PARAMETER_SLACK, Criteria, GraspReport, check_grasp
+from zygopin.wrap import FingerPoses, finger_poses
+
+LEVELS = 7
+"""Angles tried at each joint beside the closing one."""
+
+COARSE_LEVELS = 4
+"""The same while heights are compared."""
+
+HEIGHTS = 17
+"""Heights compared in one round."""
+
+DEEPEST = 0.6
+"""Deepest gap between base and bark that is tried, over the foot's size."""
+
+BEAM = 4000
+"""Combinations of fingers' poses kept while fingers are added one by one."""
+
+ROUNDS = 2
+"""Rounds of the search for a height, the second around the best of the first."""
+
+VERTICAL = 1e-6
+"""Squared sine of the slope to the vertical below which a branch has no height."""
+
+PENALTY, GRASP, TOE, TOUCH, CONTACT = 1e6, 1e4, 1e3, 1e2, 1e-1
+"""Ranks of what a combination is worth: nothing that collides, then a grasp, then
+toes that are tangent, then toes that touch, then radians of wrap, then contacts."""
+
+Booleans = NDArray[np.bool_]
+Indices = NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class PerchPlan:
+    """How the foot perches on a branch, or what is possible instead.
+
+    Attributes:
+        controls: The controls, shape (P,).
+        branch: The branch; at the height found, where none was given.
+        report: The exact engine's verdicts on these controls.
+        wrap: How far around the branch each finger's last tangent phalanx lies
+            from the base's nearest line [rad], shape (F,); −∞ without one.
+        reason: Why this is no feasible grasp, in one line; None where it is one.
+    """
+
+    controls: Floats
+    branch: Branch
+    report: GraspReport
+    wrap: Floats
+    reason: str | None
+
+    @property
+    def grasping(self) -> bool:
+        """Whether the plan is a grasp that enters neither branch nor finger."""
+        return self.reason is None
+
+
+def plan_perch(
+    foot: Foot, branch: Branch, *, find_height: bool = False, levels: int = LEVELS
+) -> PerchPlan:
+    """Controls that perch on a branch, wrapped as far as they can be.
+
+    Each finger's poses that touch without entering the branch are found by closing
+    its joints one after another (MODEL.md, section 4, "Conforming wrap"); the
+    combination is chosen that grasps with most toes and keeps fingers apart. The
+    search over the joints before a contact is a grid: a plan that is found is
+    checked exactly, a grasp that exists only between grid angles may be missed.
+
+    Args:
+        foot: The foot.
+        branch: One branch, of any pose.
+        find_height: Also move the branch along z to where it is grasped best.
+        levels: Angles tried at each joint, 2 to 33; the work grows as levels^K.
+
+    Returns:
+        The best plan; its `reason` says why where it is no feasible grasp.
+
+    Raises:
+        ParameterError: A batch of branches, a vertical branch whose height is to be
+            found, or levels out of range.
+    """
+    if branch.batch_shape:
+        remedy = "plan for one branch at a time"
+        raise ParameterError("branch batch", branch.batch_shape, "()", remedy)
+    levels = checks.integer("levels", levels, 2, 33)
+    if find_height:
+        branch = _best_height(foot, branch)
+    return _planned(foot, branch, levels)
+
+
+def _planned(foot: Foot, branch: Branch, levels: int) -> PerchPlan:
+    """The plan for a branch in its place."""
+    poses = _all_poses(foot, branch.broadcast((1,)), levels)
+    chosen, _ = _best_combination(foot, poses)
+    controls = np.concatenate(
+        [p.controls[i] for p, i in zip(poses, chosen, strict=True)]
+    )
+    wrap = np.array([p.wrap[i] for p, i in zip(poses, chosen, strict=True)])
+    report = check_grasp(foot, controls, branch)
+    return PerchPlan(controls, branch, report, wrap, _reason(report))
+
+
+def _all_poses(foot: Foot, branches: Branch, levels: int) -> list[FingerPoses]:
+    """The poses of every finger, for a batch of branches."""
+    tolerance = Criteria().metres(foot)
+    fingers = range(len(foot.fingers))
+    return [finger_poses(foot, i, branches, levels, tolerance) for i in fingers]
+
+
+def _best_combination(foot: Foot, poses: list[FingerPoses]) -> tuple[Indices, float]:
+    """One pose for each finger, and what the combination is worth.
+
+    Fingers are added one by one; the best `BEAM` combinations are kept.
+    """
+    combos = np.zeros((1, 0), dtype=np.intp)
+    worth, grasps = np.zeros(1), np.zeros(1, dtype=bool)
+    for finger, new in enumerate(poses):
+        total = worth[:, None] + _worth(foot, new)
+        grasping = np.repeat(grasps[:, None], len(new.wrap), axis=1)
+        for earlier in range(finger):
+            row = combos[:, earlier]
+            total -= PENALTY * _colliding(foot, poses, earlier, finger)[row]
+            if (earlier, finger) in foot.opposable_pairs:
+                grasping |= _opposed(poses[earlier], new)[row]
+        ranked = np.argsort(-(total + GRASP * grasping), axis=None, kind="stable")
+        row, pose = np.unravel_index(ranked[:BEAM], total.shape)
+        combos = np.concatenate([combos[row], pose[:, None]], axis=1)
+        worth, grasps = total[row, pose], grasping[row, pose]
+    return combos[0], float(worth[0] + GRASP * grasps[0])
+
+
+def _worth(foot: Foot, poses: FingerPoses) -> Floats:
+    """What each pose of a finger is worth by itself, shape (N,)."""
+    entering = (poses.clearance < -Criteria().metres(foot)).any(axis=1)
+    return np.asarray(
+        TOE * poses.tangent.any(axis=1)
+        + TOUCH * poses.touching.any(axis=1)
+        + np.where(np.isfinite(poses.wrap), poses.wrap, 0.0)
+        + CONTACT * poses.touching.sum(axis=1)
+        - PENALTY * entering
+    )
+
+
+def _colliding(foot: Foot, poses: list[FingerPoses], i: int, j: int) -> Booleans:
+    """Which poses of two fingers run into each other, shape (N_i, N_j)."""
+    one, other = poses[i].bones, poses[j].bones
+    parts = [foot.finger_slices[foot.fingers[k].name] for k in (i, j)]
+    skin = foot.radii[parts[0]][:, None] + foot.radii[parts[1]]
+    apart = segment_distance(one[:, None, :, None], other[None, :, None, :]) - skin
+    apart[..., 0, 0] = np.inf
+    return np.asarray(apart.min(axis=(-2, -1)) < 0.0)
+
+
+def _opposed(one: FingerPoses, other: FingerPoses) -> Booleans:
+    """Which poses of two fingers hold the branch between them, shape (N, M)."""
+    products = np.einsum("ikx,jlx->ijkl", one.normal, other.normal)
+    both = one.tangent[:, None, :, None] & other.tangent[None, :, None, :]
+    return np.asarray((both & (products <= PARAMETER_SLACK)).any(axis=(-2, -1)))
+
+
+def _best_height(foot: Foot, branch: Branch) -> Branch:
+    """The branch moved along z to where its coarse plan is worth most."""
+    top, low, high = _highest(foot, branch), 0.0, DEEPEST * foot.size
+    for _ in range(ROUNDS):
+        gaps = np.linspace(low, high, HEIGHTS)
+        poses = _all_poses(foot, _lowered(branch, top - gaps), COARSE_LEVELS)
+        worths = [
+            _best_combination(foot, [p.take(p.place == place) for p in poses])[1]
+            for place in range(HEIGHTS)
+        ]
+        best = float(gaps[np.argmax(worths - gaps / foot.size)])
+        width = (high - low) / (HEIGHTS - 1)
+        low, high = max(best - width, 0.0), best + width
+    return _lowered(branch, top - np.asarray(best))
+
+
+def _highest(foot: Foot, branch: Branch) -> float:
+    """Height of the centre at which the base's skin rests on the branch [m].
+
+    Solves |centre − (centre·axis) axis| = radius + skin for the centre's z; where
+    the branch passes beside the base, the height of the base.
+    """
+    across = np.eye(3) - np.outer(branch.axis, branch.axis)
+    rise, level = across[:, 2], across @ (branch.centre * (1.0, 1.0, 0.0))
+    square = float(rise @ rise)
+    if square < VERTICAL:
+        remedy = "give the branch a slope, or its place"
+        raise ParameterError("branch.axis", branch.axis, "across the z axis", remedy)
+    reach = float(branch.radius) + float(foot.radii.max())
+    half = float(rise @ level) / square
+    inside = half**2 - (float(level @ level) - reach**2) / square
+    return -half - float(np.sqrt(max(inside, 0.0)))
+
+
+def _lowered(branch: Branch, heights: Floats) -> Branch:
+    """The branch with its centre at other heights."""
+    level = np.broadcast_to(branch.centre[:2], (*heights.shape, 2))
+    return branch.moved_to(np.concatenate([level, heights[..., None]], axis=-1))
+
+
+def _reason(report: GraspReport) -> str | None:
+    """Why a pose is no feasible grasp, in one line; None where it is one."""
+    foot, branch = report.foot, report.branch
+    if report.grasping and report.feasible:
+        return None
+    if report.penetrating.any():
+        return "every pose of some toe enters the branch: move it down or away"
+    if report.grasping:
+        return "the toes that grasp run into each other: take a thicker branch"
+    toes = [
+        foot.fingers[i].name for i in np.unique(foot.finger_of_phalanx[report.touching])
+    ]
+    if not toes:
+        gap = float(report.clearance.min())
+        return (
+            f"no toe reaches the branch: the nearest stays {gap:.4g} m away; "
+            "move the branch nearer or take a larger foot"
+        )
+    if not report.stable:
+        return (
+            f"only {', '.join(toes)} can touch the branch, and no toe opposite: "
+            "move the branch under the foot"
+        )
+    angle = float(np.degrees(np.arccos(np.clip(report.scalar_product, -1, 1))))
+    ends = [part.stop - 1 for part in foot.finger_slices.values()]
+    spent = bool(report.tangent[ends].any())
+    remedy = "take a thinner branch" if spent else "take a thicker branch or a larger ω"
+    return (
+        f"contacts of opposing toes reach {angle:.0f}° around the branch of radius "
+        f"{float(branch.radius):.4g} m, a grasp needs 90°: {remedy}"
+    )
