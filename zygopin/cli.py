@@ -1,0 +1,249 @@
+"""The command line: each command parses, calls one function, and formats."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import click
+
+from zygopin.options import (
+    MM,
+    POSITIVE_MM,
+    OneLineErrors,
+    branch_options,
+    foot_options,
+    make_branch,
+    make_foot,
+    read_controls,
+)
+
+_HTML = click.option(
+    "--html", type=click.Path(path_type=Path), help="Write the scene to this file."
+)
+_JSON = click.option("--json", "as_json", is_flag=True, help="Print JSON, in SI.")
+
+
+@click.group(
+    cls=OneLineErrors, context_settings={"help_option_names": ["-h", "--help"]}
+)
+@click.version_option(package_name="zygopin")
+def main() -> None:
+    """The zygodactyl bird's foot: description, kinematics, grasp checks.
+
+    Lengths are in millimetres and angles in degrees, as each option's name says;
+    x points forward, y left, z up, and the base of the foot is the origin.
+    """
+
+
+@main.command()
+@foot_options
+@click.option(
+    "-o",
+    "--output",
+    required=True,
+    type=click.Path(path_type=Path),
+    help="Folder to write to.",
+)
+@_JSON
+def urdf(output: Path, as_json: bool, **foot: Any) -> None:
+    """Write foot.urdf, foot_tendon.urdf and foot.srdf."""
+    from zygopin.description import write_description
+
+    paths = write_description(make_foot(**foot), output)
+    if as_json:
+        click.echo(json.dumps({"files": [str(path) for path in paths]}, indent=2))
+        return
+    for path in paths:
+        click.echo(path)
+
+
+@main.command()
+@foot_options
+@branch_options
+@click.option("--height-mm", "height", type=MM, help="z of the centre; else searched.")
+@_HTML
+@_JSON
+@click.pass_context
+def perch(
+    context: click.Context,
+    radius: float,
+    height: float | None,
+    html: Path | None,
+    as_json: bool,
+    **options: Any,
+) -> None:
+    """Find controls that grasp a branch, check them, show the scene.
+
+    Without a height, the branch is placed under the foot where it is grasped best.
+    Exit status 0: a feasible grasp; 1: none found, with the reason; 2: bad input.
+    """
+    from zygopin.perch import plan_perch
+
+    pose = {name: options.pop(name) for name in ("yaw", "pitch", "length")}
+    foot = make_foot(**options)
+    search = height is None
+    start = -2 * (radius + foot.size) if height is None else height
+    branch = make_branch(radius, start, **pose)
+    with _waiting("planning", quiet=as_json):
+        plan = plan_perch(foot, branch, find_height=search)
+    _show(plan.report, html, as_json, plan.reason)
+    context.exit(0 if plan.grasping else 1)
+
+
+@main.command()
+@foot_options
+@branch_options
+@click.option("--height-mm", "height", type=MM, required=True, help="z of the centre.")
+@click.option(
+    "--controls",
+    required=True,
+    help="Comma-separated numbers in [0, 1], or a JSON file.",
+)
+@click.option(
+    "--reading",
+    type=click.Choice(["section", "base_to_tip"]),
+    default="section",
+    show_default=True,
+    help="Which scalar product decides on a grasp.",
+)
+@click.option("--tolerance-mm", "tolerance", type=POSITIVE_MM, help="Of a contact.")
+@_HTML
+@_JSON
+@click.pass_context
+def check(
+    context: click.Context,
+    controls: str,
+    reading: Any,
+    tolerance: float | None,
+    html: Path | None,
+    as_json: bool,
+    **options: Any,
+) -> None:
+    """Say whether given controls are stable on a branch, grasp it, are feasible.
+
+    Exit status 0: grasping; 1: not; 2: bad input.
+    """
+    from zygopin.grasp import Criteria, check_grasp
+
+    names = ("radius", "height", "yaw", "pitch", "length")
+    branch = make_branch(**{name: options.pop(name) for name in names})
+    criteria = Criteria(reading, tolerance)
+    foot = make_foot(**options)
+    report = check_grasp(foot, read_controls(controls), branch, criteria=criteria)
+    _show(report, html, as_json)
+    context.exit(0 if report.grasping else 1)
+
+
+@main.command()
+@click.argument("name", required=False)
+@_JSON
+def presets(name: str | None, as_json: bool) -> None:
+    """List the shipped feet, or one of them with the source of each number."""
+    from zygopin.presets import preset_names, read_preset
+
+    if as_json:
+        names = preset_names() if name is None else (name,)
+        click.echo(json.dumps({each: read_preset(each) for each in names}, indent=2))
+    elif name is None:
+        _list_presets()
+    else:
+        _show_preset(name, read_preset(name))
+
+
+def _show(
+    report: Any, html: Path | None, as_json: bool, reason: str | None = None
+) -> None:
+    """Check a report with FCL, write its scene, print it."""
+    from zygopin import output
+    from zygopin.grasp import check_grasp
+
+    second = check_grasp(report.foot, report.controls, report.branch, engine="fcl")
+    difference = report.difference(second)
+    if html is not None:
+        from zygopin.scene import export_scene
+
+        export_scene(report, html)
+    if as_json:
+        document = output.report_document(report, difference, reason)
+        click.echo(json.dumps(document, indent=2, allow_nan=False))
+    else:
+        _print_report(report, difference, html)
+    if reason is not None:
+        click.echo(f"zygopin: no feasible grasp: {reason}", err=True)
+
+
+def _print_report(report: Any, difference: float, html: Path | None) -> None:
+    """The table, the verdicts, and where the scene is."""
+    from zygopin import output
+
+    click.echo(f"{report.foot.name}, branch: {output.branch_line(report.branch)}")
+    headings = ("finger", "phalanx", "control", "clearance [mm]", "t", "contact")
+    _print_table(headings, output.report_rows(report), "lrrrrl")
+    for line in output.verdict_lines(report, difference):
+        click.echo(line)
+    if html is not None:
+        click.echo(f"scene: {html}")
+
+
+def _list_presets() -> None:
+    """A table of the presets."""
+    from zygopin.foot import Foot
+    from zygopin.presets import preset_names, read_preset
+
+    feet = {name: Foot.preset(name) for name in preset_names()}
+    rows = [
+        (
+            name,
+            f"{foot.rho:.4g}",
+            f"{foot.omega * 180 / 3.141592653589793:.4g}",
+            f"{foot.scale * 1e3:.4g}",
+            f"{foot.thickness * 1e3:.4g}",
+            read_preset(name)["description"],
+        )
+        for name, foot in feet.items()
+    ]
+    headings = ("preset", "ρ", "ω [°]", "s [mm]", "skin [mm]", "what it is")
+    _print_table(headings, rows, "lrrrrl")
+
+
+def _show_preset(name: str, values: dict[str, Any]) -> None:
+    """One preset: each field, its value and its source."""
+    sources = values.get("sources", {})
+    click.echo(f"{name}: {values['description']} (SI units)")
+    rows = [
+        (field, _field_text(values[field]), str(sources.get(field, "")))
+        for field in values
+        if field not in ("description", "sources", "name")
+    ]
+    _print_table(("field", "value", "source"), rows, "lll")
+
+
+def _field_text(value: Any) -> str:
+    """A field's value: a number, or the fingers one to a line."""
+    if not isinstance(value, list):
+        return f"{value:.6g}"
+    return "\n".join(f"{each['name']}: {each['phalanges']} phalanges" for each in value)
+
+
+def _print_table(headings: Any, rows: Any, align: str) -> None:
+    """A table that fits the terminal."""
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for heading, side in zip(headings, align, strict=True):
+        table.add_column(heading, justify="left" if side == "l" else "right")
+    for row in rows:
+        table.add_row(*row)
+    Console(markup=False, highlight=False).print(table)
+
+
+def _waiting(what: str, *, quiet: bool) -> Any:
+    """A progress display on stderr while a search runs, on a terminal only."""
+    from rich.console import Console
+
+    console = Console(stderr=True, quiet=quiet)
+    return console.status(what)

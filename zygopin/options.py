@@ -1,0 +1,251 @@
+"""Options that commands share: from millimetres and degrees to a foot and a branch."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+
+from zygopin.errors import FileError, ParameterError, ZygopinError
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+class Quantity(click.ParamType):
+    """A finite number with a unit, held in SI.
+
+    Args:
+        unit: Name of the unit, for messages.
+        factor: SI units in one of it.
+        positive: Whether it must be positive.
+    """
+
+    def __init__(self, unit: str, factor: float, *, positive: bool = False) -> None:
+        self.name = unit
+        self.factor = factor
+        self.positive = positive
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float:
+        """Parse a text.
+
+        Args:
+            value: What was typed.
+            param: The option.
+            ctx: The command's context.
+
+        Returns:
+            The quantity in SI.
+        """
+        try:
+            number = float(value)
+        except ValueError:
+            number = math.nan
+        if not math.isfinite(number) or (self.positive and number <= 0):
+            kind = "a positive number" if self.positive else "a number"
+            self.fail(f"{value!r} is not {kind} of {self.name}.", param, ctx)
+        return number * self.factor
+
+
+MM = Quantity("millimetres", 1e-3)
+POSITIVE_MM = Quantity("millimetres", 1e-3, positive=True)
+DEGREES = Quantity("degrees", math.pi / 180)
+
+_ALLOWED = {
+    "rho": ("--rho", 1.0, "a number above 1, up to 100", "try 1.2"),
+    "omega": ("--omega-deg", 180 / math.pi, "in (0, 360) without 180", "try 80"),
+    "splay": ("--splay-deg", 180 / math.pi, "in [0, 90)", "try 15"),
+    "scale": ("--scale-mm", 1e3, "in [1e-3, 1e9]", "try 16"),
+    "thickness": ("--thickness-mm", 1e3, "from 0 to below the scale", "try 2"),
+}
+"""What each overridden field is called and allowed to be on the command line."""
+
+
+def foot_options(command: Command) -> Command:
+    """Add the options that choose a foot.
+
+    Args:
+        command: The command's function; gets them as keyword arguments.
+
+    Returns:
+        The same function, decorated.
+    """
+    file = click.Path(path_type=Path)
+    for option in (
+        click.option("--thickness-mm", "thickness", type=MM, help="Skin radius."),
+        click.option("--scale-mm", "scale", type=POSITIVE_MM, help="Length scale s."),
+        click.option("--splay-deg", "splay", type=DEGREES, help="Splay angle Ω."),
+        click.option("--omega-deg", "omega", type=DEGREES, help="Joint limit ω."),
+        click.option("--rho", type=float, help="Scaling factor ρ > 1."),
+        click.option("--foot", "foot_file", type=file, help="YAML file of a foot."),
+        click.option(
+            "--preset",
+            metavar="NAME",
+            help="A shipped foot; see `zygopin presets`.  [default: parrot]",
+        ),
+    ):
+        command = option(command)
+    return command
+
+
+def branch_options(command: Command) -> Command:
+    """Add the options that place a branch, but for its height.
+
+    Args:
+        command: The command's function; gets them as keyword arguments.
+
+    Returns:
+        The same function, decorated.
+    """
+    for option in (
+        click.option("--length-mm", "length", type=POSITIVE_MM, help="Else infinite."),
+        click.option("--pitch-deg", "pitch", type=DEGREES, default=0, help="Slope."),
+        click.option(
+            "--yaw-deg",
+            "yaw",
+            type=DEGREES,
+            default=0,
+            help="Turn about z; 0: the axis is y, across the foot.",
+        ),
+        click.option(
+            "--radius-mm",
+            "radius",
+            type=POSITIVE_MM,
+            required=True,
+            help="Radius of the branch.",
+        ),
+    ):
+        command = option(command)
+    return command
+
+
+def make_foot(preset: str | None, foot_file: Path | None, **changes: Any) -> Any:
+    """The foot that the options choose.
+
+    Args:
+        preset: Name of a preset, or None.
+        foot_file: A YAML file, or None.
+        **changes: Fields to replace [SI]; None: keep.
+
+    Returns:
+        The foot.
+
+    Raises:
+        UsageError: Both a preset and a file, or a value out of range.
+    """
+    from zygopin.foot import Foot
+
+    if preset is not None and foot_file is not None:
+        raise click.UsageError("--preset and --foot exclude each other: give one.")
+    foot = (
+        Foot.preset(preset or "parrot") if foot_file is None else Foot.load(foot_file)
+    )
+    given = {name: value for name, value in changes.items() if value is not None}
+    try:
+        return foot.replace(**given)
+    except ParameterError as error:
+        if error.name not in given:
+            raise
+        option, factor, allowed, remedy = _ALLOWED[error.name]
+        shown = given[error.name] * factor
+        message = f"{option} = {shown:.6g} is not {allowed}: {remedy}."
+        raise click.UsageError(message) from error
+
+
+def make_branch(
+    radius: float, height: float, yaw: float, pitch: float, length: float | None
+) -> Any:
+    """The branch that the options place, its centre on the z axis.
+
+    Args:
+        radius: Radius [m].
+        height: z of the centre [m].
+        yaw: Turn about z [rad].
+        pitch: Slope [rad].
+        length: Length [m], or None.
+
+    Returns:
+        The branch.
+
+    Raises:
+        UsageError: The branch would hold the foot's base inside it.
+    """
+    from zygopin.branch import Branch, branch_axis
+
+    try:
+        return Branch(radius, (0.0, 0.0, height), branch_axis(yaw, pitch), length)
+    except ParameterError as error:
+        level = max(abs(math.cos(pitch)), 1e-9)
+        lowest = -radius / level * 1e3
+        raise click.UsageError(
+            f"--height-mm = {height * 1e3:.6g} puts the foot's base inside the branch: "
+            f"give at most {lowest:.6g}, a branch below the base."
+        ) from error
+
+
+def read_controls(text: str) -> Any:
+    """Controls from the command line.
+
+    Args:
+        text: Numbers separated by commas, or the path of a JSON file: a list, a
+            mapping by finger, or a document of `check` or `perch`.
+
+    Returns:
+        A list of numbers, or a mapping of finger names to lists.
+
+    Raises:
+        FileError: Neither numbers nor a readable JSON file.
+    """
+    try:
+        return [float(number) for number in text.split(",")]
+    except ValueError:
+        pass
+    remedy = "give numbers separated by commas, or a JSON file"
+    try:
+        content = json.loads(Path(text).read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError) as error:
+        problem = getattr(error, "strerror", None) or f"not JSON: {error}"
+        raise FileError(text, problem, remedy) from error
+    if isinstance(content, dict):
+        content = content.get("controls", content)
+    if not isinstance(content, (list, dict)):
+        raise FileError(text, "holds no controls", remedy)
+    return content
+
+
+class OneLineErrors(click.Group):
+    """A command group whose errors are one line on stderr and an exit status."""
+
+    def main(self, *args: Any, **kwargs: Any) -> Any:
+        """Run the command line and exit.
+
+        Args:
+            *args: As for `click.Group.main`.
+            **kwargs: As for `click.Group.main`.
+
+        Returns:
+            Never: raises SystemExit with the status.
+        """
+        kwargs["standalone_mode"] = False
+        try:
+            status = super().main(*args, **kwargs)
+        except click.ClickException as error:
+            _complain(error.format_message())
+            status = error.exit_code
+        except click.Abort:
+            _complain("interrupted")
+            status = 130
+        except ZygopinError as error:
+            _complain(str(error))
+            status = error.exit_code
+        raise SystemExit(status if isinstance(status, int) else 0)
+
+
+def _complain(message: str) -> None:
+    """One line on stderr."""
+    click.echo(f"zygopin: {' '.join(message.split())}", err=True)
