@@ -148,7 +148,7 @@ def _add_groups(root: ET.Element, foot: Foot) -> str:
 def _poses(foot: Foot) -> dict[str, dict[str, float]]:
     """Named poses: {pose: {joint: angle [rad]}}, every joint in each."""
     joints = [*chain.from_iterable(map(names.flexion_joints, foot.fingers))]
-    turning = [finger for finger in foot.fingers if finger.reversed_azimuth is not None]
+    turning = [*filter(names.is_reversible, foot.fingers)]
     back = {names.reversal_joint(finger): 0.0 for finger in turning}
     ahead = {names.reversal_joint(finger): finger.reversal for finger in turning}
     straight = dict.fromkeys(joints, 0.0)
@@ -177,7 +177,6 @@ def _touching_links(foot: Foot) -> dict[tuple[str, str], str]:
 
 def _chain(finger: Finger) -> tuple[str, ...]:
     """Links of a finger from the foot's base to the tip."""
-    turning = finger.reversed_azimuth is not None
-    between = (names.turning_link(finger),) if turning else ()
+    between = (names.turning_link(finger),) * names.is_reversible(finger)
     tip = names.tip_link(finger)
     return (names.BASE, *between, *names.phalanx_links(finger), tip)

@@ -25,19 +25,31 @@ def write_text(path: Path | str, text: str) -> Path:
     Raises:
         FileError: The path is no regular file, or its folder cannot be written.
     """
-    target = Path(os.path.realpath(path))
-    if target.exists() and not target.is_file():
-        raise FileError(path, "is not a regular file", "name a file to write")
-    part = target.with_name(f".{secrets.token_hex(8)}.part")
     try:
+        target = _target(path)
         target.parent.mkdir(parents=True, exist_ok=True)
-        with part.open("x", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-        part.replace(target)
-    except (OSError, UnicodeEncodeError) as error:
+        _replace(target, text)
+    except (OSError, ValueError) as error:
         problem = getattr(error, "strerror", None) or str(error)
         remedy = "name a file in a folder that can be written"
         raise FileError(path, f"cannot be written: {problem}", remedy) from error
+    return Path(path)
+
+
+def _target(path: Path | str) -> Path:
+    """Where a path leads; a folder or a device is never replaced by a file."""
+    target = Path(os.path.realpath(path))
+    if target.exists() and not target.is_file():
+        raise ValueError("it is not a regular file")
+    return target
+
+
+def _replace(target: Path, text: str) -> None:
+    """Write beside the target and rename; leave nothing beside it on failure."""
+    part = target.with_name(f".{secrets.token_hex(8)}.part")
+    try:
+        with part.open("x", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+        part.replace(target)
     finally:
         part.unlink(missing_ok=True)
-    return Path(path)

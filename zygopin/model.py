@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from itertools import chain
-from xml.etree import ElementTree as ET
 
 import numpy as np
 import pinocchio as pin
@@ -13,13 +12,12 @@ from numpy.typing import ArrayLike, NDArray
 from zygopin import names
 from zygopin.description import to_urdf
 from zygopin.errors import DescriptionError, ParameterError
-from zygopin.foot import Finger, Foot
+from zygopin.foot import Foot
 from zygopin.kinematics import Controls, as_azimuths, as_controls
+from zygopin.urdf_check import REMEDY, check_urdf
 
 AZIMUTH_TOLERANCE = 1e-12
 """Turn of a finger that cannot turn which passes as none [rad]: rounding."""
-
-_REMEDY = "give the URDF of this foot, as to_urdf writes it"
 
 
 class FootModel:
@@ -41,13 +39,14 @@ class FootModel:
         self.foot = foot
         self.urdf = to_urdf(foot) if urdf is None else urdf
         self.model: pin.Model = _read(self.urdf, foot)
-        turning = [finger for finger in foot.fingers if _reversible(finger)]
+        turning = [finger for finger in foot.fingers if names.is_reversible(finger)]
         self._turning = [foot.fingers.index(finger) for finger in turning]
         self._reversal = self._coordinates(map(names.reversal_joint, turning))
         flexion = map(names.flexion_joints, foot.fingers)
         self._flexion = self._coordinates(chain.from_iterable(flexion))
         self._frames = [
-            self.model.getFrameId(link, pin.FrameType.BODY) for link in _links(foot)
+            self.model.getFrameId(link, pin.FrameType.BODY)
+            for link in names.bone_links(foot)
         ]
         # Each finger's tip comes after its phalanges: one frame more for each.
         self._starts = np.arange(foot.phalanx_count) + foot.finger_of_phalanx
@@ -119,7 +118,7 @@ class FootModel:
         turns = values - as_azimuths(self.foot, None)
         for place, finger in enumerate(self.foot.fingers):
             stray = np.abs(turns[..., place]) > AZIMUTH_TOLERANCE
-            if not _reversible(finger) and np.any(stray):
+            if not names.is_reversible(finger) and np.any(stray):
                 raise ParameterError(
                     f"azimuths[{finger.name}]",
                     values[..., place][stray].flat[0],
@@ -127,11 +126,6 @@ class FootModel:
                     "this finger has no reversal: give it a reversed_azimuth",
                 )
         return turns
-
-
-def _reversible(finger: Finger) -> bool:
-    """Whether a finger has a reversal joint."""
-    return finger.reversed_azimuth is not None
 
 
 def _common_batch(*arrays: NDArray[np.float64]) -> tuple[int, ...]:
@@ -150,49 +144,14 @@ def _common_batch(*arrays: NDArray[np.float64]) -> tuple[int, ...]:
 
 def _read(urdf: str, foot: Foot) -> pin.Model:
     """The model of a URDF that has every link and joint of the foot."""
-    _check_xml(urdf, foot)
+    check_urdf(urdf, foot)
     try:
         model = pin.buildModelFromXML(urdf)
     except (ValueError, RuntimeError) as error:
-        raise DescriptionError(f"the URDF is malformed: {error}", _REMEDY) from error
+        raise DescriptionError(f"the URDF is malformed: {error}", REMEDY) from error
     sizes = dict(zip(model.names, model.nqs, strict=True))
-    for joint in _joints(foot):
+    for joint in names.moving_joints(foot):
         if sizes.get(joint) != 1:
-            problem = f"joint {joint} of the URDF does not turn by one angle"
-            raise DescriptionError(problem, _REMEDY)
+            problem = f"the URDF's joint {joint} does not turn by one angle"
+            raise DescriptionError(problem, REMEDY)
     return model
-
-
-def _check_xml(urdf: str, foot: Foot) -> None:
-    """The text is XML and names every link and joint of the foot.
-
-    Checked before Pinocchio sees it, whose parser writes to stderr.
-    """
-    try:
-        root = ET.fromstring(urdf)  # noqa: S314
-    except (ET.ParseError, ValueError, TypeError) as error:
-        raise DescriptionError(f"the URDF is not XML: {error}", _REMEDY) from error
-    if root.tag != "robot":
-        problem = f"the URDF's root is <{root.tag}>, not <robot>"
-        raise DescriptionError(problem, _REMEDY)
-    for kind, wanted in (("link", _links(foot)), ("joint", _joints(foot))):
-        there = {element.get("name") for element in root.findall(kind)}
-        missing = [name for name in wanted if name not in there]
-        if missing:
-            problem = f"the URDF lacks the {kind} {missing[0]} of this foot"
-            raise DescriptionError(problem, _REMEDY)
-
-
-def _links(foot: Foot) -> Iterator[str]:
-    """Links that the foot's bones are read from."""
-    for finger in foot.fingers:
-        yield from names.phalanx_links(finger)
-        yield names.tip_link(finger)
-
-
-def _joints(foot: Foot) -> Iterator[str]:
-    """Joints that the foot's configuration sets."""
-    for finger in foot.fingers:
-        yield from names.flexion_joints(finger)
-        if _reversible(finger):
-            yield names.reversal_joint(finger)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from zygopin.foot import Finger
+from collections.abc import Iterator
+
+from zygopin.foot import Finger, Foot
 
 BASE = "foot"
 """The rigid base link, at the junction that all fingers share."""
@@ -31,6 +33,26 @@ def turning_link(finger: Finger) -> str:
 def reversal_joint(finger: Finger) -> str:
     """Joint that turns a reversible finger about z; 0: the finger's azimuth."""
     return f"{finger.name}_reversal"
+
+
+def is_reversible(finger: Finger) -> bool:
+    """Whether a finger has a turning link and a reversal joint."""
+    return finger.reversed_azimuth is not None
+
+
+def bone_links(foot: Foot) -> Iterator[str]:
+    """Links at the bones' ends: each finger's phalanges, then its tip."""
+    for finger in foot.fingers:
+        yield from phalanx_links(finger)
+        yield tip_link(finger)
+
+
+def moving_joints(foot: Foot) -> Iterator[str]:
+    """Joints that move: each finger's flexion joints, then its reversal joint."""
+    for finger in foot.fingers:
+        yield from flexion_joints(finger)
+        if is_reversible(finger):
+            yield reversal_joint(finger)
 
 
 def _ranks(finger: Finger) -> range:
