@@ -53,6 +53,24 @@ def test_they_agree_for_any_foot(data):
     assert np.abs(bones - expected).max() < 1e-12 * foot.size
 
 
+@pytest.mark.parametrize(
+    ("rho", "scale", "thickness", "density"),
+    [(100.0, 1e-6, 1e-300, 1e-3), (1.0000001, 1e6, 9e5, 1e6)],
+)
+def test_the_smallest_and_the_largest_foot_are_valid(rho, scale, thickness, density):
+    finger = Finger("toe", 12, 1.0, reversed_azimuth=2.0)
+    foot = Foot(
+        rho=rho, scale=scale, thickness=thickness, density=density, fingers=(finger,)
+    )
+    model = FootModel(foot)
+    bones = model.forward(np.ones(12))
+    expected = forward_kinematics(foot, np.ones(12))
+    assert np.abs(bones - expected).max() < 1e-12 * foot.size
+    for inertia in model.model.inertias[1:]:
+        assert 0 < inertia.mass < math.inf
+        assert np.linalg.eigvalsh(inertia.inertia).min() > 0
+
+
 def test_four_junctions_by_hand():
     # ρ = φ, ω = π/6, v ≡ 1, straight ahead (MODEL.md, section 2): x + iz.
     foot = Foot(fingers=(Finger("toe", 4, 0.0),))

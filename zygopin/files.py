@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import secrets
 from pathlib import Path
 
 from zygopin.errors import FileError
@@ -46,7 +45,7 @@ def _target(path: Path | str) -> Path:
 
 def _replace(target: Path, text: str) -> None:
     """Write beside the target and rename; leave nothing beside it on failure."""
-    part = target.with_name(f".{secrets.token_hex(8)}.part")
+    part = target.with_name(f".{os.urandom(8).hex()}.part")
     try:
         with part.open("x", encoding="utf-8", newline="\n") as file:
             file.write(text)
