@@ -276,7 +276,6 @@ class Foot:
         )
 
 
-_POSITIVE = ("a positive number", lambda x: x > 0, "give a positive number")
 _RANGES: dict[str, Any] = {
     "rho": (
         "a number above 1, up to 100",
@@ -303,7 +302,11 @@ _RANGES: dict[str, Any] = {
         lambda x: x >= 0,
         "give metres, or 0 for bare bones",
     ),
-    "density": _POSITIVE,
+    "density": (
+        "in [1e-3, 1e6]",
+        lambda x: 1e-3 <= x <= 1e6,
+        "give kg/m³, such as 1100",
+    ),
 }
 
 

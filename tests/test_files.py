@@ -1,0 +1,61 @@
+"""Files are written whole or not at all."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from zygopin.errors import FileError
+from zygopin.files import write_text
+
+
+def test_it_writes_the_text_and_creates_folders(tmp_path):
+    path = write_text(tmp_path / "a" / "b.txt", "ρ\n")
+    assert path == tmp_path / "a" / "b.txt"
+    assert path.read_bytes() == "ρ\n".encode()
+
+
+def test_it_replaces_a_file_and_leaves_nothing_beside_it(tmp_path):
+    path = tmp_path / "a.txt"
+    path.write_text("old")
+    write_text(str(path), "new")
+    assert path.read_text() == "new"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_it_follows_a_link(tmp_path):
+    (tmp_path / "target").write_text("old")
+    (tmp_path / "link").symlink_to(tmp_path / "target")
+    write_text(tmp_path / "link", "new")
+    assert (tmp_path / "link").is_symlink()
+    assert (tmp_path / "target").read_text() == "new"
+
+
+def test_a_failure_keeps_the_old_file(tmp_path, monkeypatch):
+    path = tmp_path / "a.txt"
+    path.write_text("old")
+
+    def fail(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "replace", fail)
+    with pytest.raises(FileError, match=r"No space left on device: name a file"):
+        write_text(path, "new")
+    monkeypatch.undo()
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_text_that_is_not_unicode_is_refused(tmp_path):
+    with pytest.raises(FileError, match="cannot be written"):
+        write_text(tmp_path / "a.txt", "\ud800")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("path", ["", os.devnull])
+def test_folders_and_devices_are_refused(tmp_path, path):
+    with pytest.raises(FileError, match="not a regular file"):
+        write_text(tmp_path / path, "text")
+    assert not Path(os.devnull).is_file()
