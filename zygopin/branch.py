@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from zygopin import checks
-from zygopin.errors import ParameterError
 
 BASE_SLACK = 1e-9
 """How far the base may lie inside, relative to the radius: rounding of a base that
@@ -72,7 +71,7 @@ class Branch:
         if length is not None:
             length = _positive("branch.length", length)
         self._set("length", length)
-        _check_batch(self)
+        checks.common_batch("radius, centre, axis and length", *self._shapes())
         _check_base(self)
 
     def _set(self, field: str, value: object) -> None:
@@ -81,7 +80,11 @@ class Branch:
     @property
     def batch_shape(self) -> tuple[int, ...]:
         """The leading axes; () for one branch."""
-        return np.broadcast_shapes(
+        return np.broadcast_shapes(*self._shapes())
+
+    def _shapes(self) -> tuple[tuple[int, ...], ...]:
+        """The leading axes of each field."""
+        return (
             np.shape(self.radius),
             self.centre.shape[:-1],
             self.axis.shape[:-1],
@@ -188,25 +191,6 @@ def _read_only(values: NDArray[np.float64]) -> NDArray[np.float64]:
     """The array, or the number taken out of one, read-only."""
     values.flags.writeable = False
     return values
-
-
-def _check_batch(branch: Branch) -> None:
-    """The fields' leading axes broadcast."""
-    try:
-        _ = branch.batch_shape
-    except ValueError as error:
-        shapes = (
-            np.shape(branch.radius),
-            branch.centre.shape,
-            branch.axis.shape,
-            np.shape(branch.half_length),
-        )
-        raise ParameterError(
-            "branch: shapes of radius, centre, axis, length",
-            shapes,
-            "broadcastable",
-            "give them equal leading axes",
-        ) from error
 
 
 def _check_base(branch: Branch) -> None:

@@ -124,6 +124,28 @@ def require(
     raise ParameterError(f"{name}{at}", values[index], allowed, remedy)
 
 
+def common_batch(what: str, *shapes: tuple[int, ...]) -> tuple[int, ...]:
+    """The batch shape that some shapes broadcast to.
+
+    Args:
+        what: What they are the shapes of, for the message.
+        *shapes: The leading axes of each.
+
+    Returns:
+        The common shape.
+
+    Raises:
+        ParameterError: They do not broadcast.
+    """
+    try:
+        return np.broadcast_shapes(*shapes)
+    except ValueError as error:
+        allowed, remedy = "broadcastable", "give them equal leading axes"
+        raise ParameterError(
+            f"batch shapes of {what}", shapes, allowed, remedy
+        ) from error
+
+
 def identifier(name: str, value: object) -> str:
     """A name that is safe in XML, in file names and as a key.
 

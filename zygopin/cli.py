@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import math
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -18,6 +20,9 @@ from zygopin.options import (
     make_foot,
     read_controls,
 )
+
+if TYPE_CHECKING:  # commands load what they use, so that --help is quick
+    from zygopin.grasp import GraspReport
 
 _HTML = click.option(
     "--html", type=click.Path(path_type=Path), help="Write the scene to this file."
@@ -68,6 +73,7 @@ def urdf(output: Path, as_json: bool, **foot: Any) -> None:
 @click.pass_context
 def perch(
     context: click.Context,
+    /,
     radius: float,
     height: float | None,
     html: Path | None,
@@ -84,7 +90,8 @@ def perch(
     pose = {name: options.pop(name) for name in ("yaw", "pitch", "length")}
     foot = make_foot(**options)
     search = height is None
-    start = -2 * (radius + foot.size) if height is None else height
+    level = max(abs(math.cos(pose["pitch"])), 1e-9)
+    start = -2 * (radius + foot.size) / level if height is None else height
     branch = make_branch(radius, start, **pose)
     with _waiting("planning", quiet=as_json):
         plan = plan_perch(foot, branch, find_height=search)
@@ -114,6 +121,7 @@ def perch(
 @click.pass_context
 def check(
     context: click.Context,
+    /,
     controls: str,
     reading: Any,
     tolerance: float | None,
@@ -153,7 +161,7 @@ def presets(name: str | None, as_json: bool) -> None:
 
 
 def _show(
-    report: Any, html: Path | None, as_json: bool, reason: str | None = None
+    report: GraspReport, html: Path | None, as_json: bool, reason: str | None = None
 ) -> None:
     """Check a report with FCL, write its scene, print it."""
     from zygopin import output
@@ -174,7 +182,7 @@ def _show(
         click.echo(f"zygopin: no feasible grasp: {reason}", err=True)
 
 
-def _print_report(report: Any, difference: float, html: Path | None) -> None:
+def _print_report(report: GraspReport, difference: float, html: Path | None) -> None:
     """The table, the verdicts, and where the scene is."""
     from zygopin import output
 
@@ -197,10 +205,10 @@ def _list_presets() -> None:
         (
             name,
             f"{foot.rho:.4g}",
-            f"{foot.omega * 180 / 3.141592653589793:.4g}",
+            f"{math.degrees(foot.omega):.4g}",
             f"{foot.scale * 1e3:.4g}",
             f"{foot.thickness * 1e3:.4g}",
-            read_preset(name)["description"],
+            str(read_preset(name)["description"]),
         )
         for name, foot in feet.items()
     ]
@@ -220,14 +228,16 @@ def _show_preset(name: str, values: dict[str, Any]) -> None:
     _print_table(("field", "value", "source"), rows, "lll")
 
 
-def _field_text(value: Any) -> str:
+def _field_text(value: float | list[dict[str, Any]]) -> str:
     """A field's value: a number, or the fingers one to a line."""
     if not isinstance(value, list):
         return f"{value:.6g}"
     return "\n".join(f"{each['name']}: {each['phalanges']} phalanges" for each in value)
 
 
-def _print_table(headings: Any, rows: Any, align: str) -> None:
+def _print_table(
+    headings: Sequence[str], rows: list[tuple[str, ...]], align: str
+) -> None:
     """A table that fits the terminal."""
     from rich import box
     from rich.console import Console

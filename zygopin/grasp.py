@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from zygopin import checks, clearance
 from zygopin.branch import Branch
 from zygopin.clearance import Clearance, Floats
-from zygopin.errors import ParameterError, UnknownNameError
+from zygopin.errors import UnknownNameError
 from zygopin.foot import Foot
 from zygopin.kinematics import Controls, as_controls, forward_kinematics
 
@@ -213,7 +213,8 @@ def check_grasp(
     values = as_controls(foot, controls)
     criteria = criteria or Criteria()
     made = make_engine(engine, foot) if isinstance(engine, str) else engine
-    batch = _batch_shape(values, branch)
+    shapes = values.shape[:-1], branch.batch_shape
+    batch = checks.common_batch("controls and branch", *shapes)
     count = int(np.prod(batch, dtype=int))
     if count <= BLOCK:
         return _report(foot, values, branch, made, criteria)
@@ -332,20 +333,6 @@ def _least_product(foot: Foot, vectors: Floats, tangent: Booleans) -> Floats:
     both = tangent[..., i] & tangent[..., j]
     least = np.where(both, products, np.inf).min(axis=-1, initial=np.inf)
     return np.where(np.isfinite(least), least, np.nan)
-
-
-def _batch_shape(controls: Floats, branch: Branch) -> tuple[int, ...]:
-    """The common batch shape of controls and branch."""
-    shapes = controls.shape[:-1], branch.batch_shape
-    try:
-        return np.broadcast_shapes(*shapes)
-    except ValueError as error:
-        raise ParameterError(
-            "batch shapes of controls and branch",
-            shapes,
-            "broadcastable",
-            "give them equal leading axes",
-        ) from error
 
 
 def _joined(

@@ -73,7 +73,8 @@ def forward_kinematics(
     """
     controls = as_controls(foot, controls)
     azimuths = as_azimuths(foot, azimuths)
-    batch = np.broadcast_shapes(controls.shape[:-1], azimuths.shape[:-1])
+    shapes = controls.shape[:-1], azimuths.shape[:-1]
+    batch = checks.common_batch("controls and azimuths", *shapes)
     bones = np.empty((*batch, foot.phalanx_count, 2, 3))
     for index, (finger, part) in enumerate(
         zip(foot.fingers, foot.finger_slices.values(), strict=True)

@@ -9,7 +9,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
-from zygopin import names
+from zygopin import checks, names
 from zygopin.description import to_urdf
 from zygopin.errors import DescriptionError, ParameterError
 from zygopin.foot import Foot
@@ -70,7 +70,8 @@ class FootModel:
         """
         controls = as_controls(self.foot, controls)
         turns = self._turns(azimuths)
-        batch = _common_batch(controls, turns)
+        shapes = controls.shape[:-1], turns.shape[:-1]
+        batch = checks.common_batch("controls and azimuths", *shapes)
         q = np.empty((*batch, self.model.nq))
         q[...] = pin.neutral(self.model)
         q[..., self._flexion] = self.foot.omega * controls
@@ -126,20 +127,6 @@ class FootModel:
                     "this finger has no reversal: give it a reversed_azimuth",
                 )
         return turns
-
-
-def _common_batch(*arrays: NDArray[np.float64]) -> tuple[int, ...]:
-    """The batch that the arrays' leading axes broadcast to."""
-    shapes = [values.shape[:-1] for values in arrays]
-    try:
-        return np.broadcast_shapes(*shapes)
-    except ValueError as error:
-        raise ParameterError(
-            "batch shapes of controls and azimuths",
-            shapes,
-            "broadcastable",
-            "give them equal leading axes",
-        ) from error
 
 
 def _read(urdf: str, foot: Foot) -> pin.Model:

@@ -6,16 +6,20 @@ import json
 import math
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from zygopin.errors import FileError, ParameterError, ZygopinError
 
+if TYPE_CHECKING:  # commands load what they use, so that --help is quick
+    from zygopin.branch import Branch
+    from zygopin.foot import Foot
+
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 
-class Quantity(click.ParamType):
+class Quantity(click.ParamType):  # type: ignore[type-arg,unused-ignore]
     """A finite number with a unit, held in SI.
 
     Args:
@@ -55,6 +59,9 @@ class Quantity(click.ParamType):
 MM = Quantity("millimetres", 1e-3)
 POSITIVE_MM = Quantity("millimetres", 1e-3, positive=True)
 DEGREES = Quantity("degrees", math.pi / 180)
+
+STEEP = 1e-3
+"""Cosine of the pitch below which a branch through the z axis is as good as on it."""
 
 _ALLOWED = {
     "rho": ("--rho", 1.0, "a number above 1, up to 100", "try 1.2"),
@@ -124,7 +131,7 @@ def branch_options(command: Command) -> Command:
     return command
 
 
-def make_foot(preset: str | None, foot_file: Path | None, **changes: Any) -> Any:
+def make_foot(preset: str | None, foot_file: Path | None, **changes: Any) -> Foot:
     """The foot that the options choose.
 
     Args:
@@ -159,7 +166,7 @@ def make_foot(preset: str | None, foot_file: Path | None, **changes: Any) -> Any
 
 def make_branch(
     radius: float, height: float, yaw: float, pitch: float, length: float | None
-) -> Any:
+) -> Branch:
     """The branch that the options place, its centre on the z axis.
 
     Args:
@@ -180,11 +187,13 @@ def make_branch(
     try:
         return Branch(radius, (0.0, 0.0, height), branch_axis(yaw, pitch), length)
     except ParameterError as error:
-        level = max(abs(math.cos(pitch)), 1e-9)
-        lowest = -radius / level * 1e3
+        level = abs(math.cos(pitch))
+        if level < STEEP:
+            message = f"--pitch-deg = {math.degrees(pitch):.6g} is too steep: try 30."
+            raise click.UsageError(message) from error
         raise click.UsageError(
             f"--height-mm = {height * 1e3:.6g} puts the foot's base inside the branch: "
-            f"give at most {lowest:.6g}, a branch below the base."
+            f"give at most {-radius / level * 1e3:.6g}, a branch below the base."
         ) from error
 
 

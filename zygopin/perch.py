@@ -236,10 +236,17 @@ def _reason(report: GraspReport) -> str | None:
             "move the branch under the foot"
         )
     angle = float(np.degrees(np.arccos(np.clip(report.scalar_product, -1, 1))))
-    ends = [part.stop - 1 for part in foot.finger_slices.values()]
-    spent = bool(report.tangent[ends].any())
-    remedy = "take a thinner branch" if spent else "take a thicker branch or a larger ω"
     return (
         f"contacts of opposing toes reach {angle:.0f}° around the branch of radius "
-        f"{float(branch.radius):.4g} m, a grasp needs 90°: {remedy}"
+        f"{float(branch.radius):.4g} m, a grasp needs 90°: {_better_size(report)}"
     )
+
+
+def _better_size(report: GraspReport) -> str:
+    """What would help toes that touch all along but do not reach around."""
+    foot = report.foot
+    ends = [part.stop - 1 for part in foot.finger_slices.values()]
+    # Toes that lie on the branch to their tips are too short; others cannot close.
+    if report.touching[ends].any() or float(report.branch.radius) > foot.size / 2:
+        return "take a thinner branch"
+    return "take a thicker branch or a larger ω"
