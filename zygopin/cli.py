@@ -236,7 +236,7 @@ def _field_text(value: float | list[dict[str, Any]]) -> str:
 
 
 def _print_table(
-    headings: Sequence[str], rows: list[tuple[str, ...]], align: str
+    headings: Sequence[str], rows: Sequence[tuple[str, ...]], align: str
 ) -> None:
     """A table that fits the terminal."""
     from rich import box
