@@ -31,14 +31,15 @@ FRAME, PANE = (330, 425), 238
 
 
 def closed_on(foot, branch):
-    """Close each joint in turn until its phalanx touches, at equal clearance ≥ 0."""
+    """Close each joint in turn until its phalanx meets the branch, or a finger."""
     controls = np.zeros(foot.phalanx_count)
     for phalanx in range(foot.phalanx_count):
         trials = np.repeat(controls[None], 129, axis=0)
         low, high = 0.0, 1.0
         for _ in range(8):
             trials[:, phalanx] = np.linspace(low, high, 129)
-            clear = check_grasp(foot, trials, branch).clearance[:, phalanx] >= 0
+            found = check_grasp(foot, trials, branch)
+            clear = (found.clearance[:, phalanx] >= 0) & (found.finger_clearance >= 0)
             last = int(np.argmin(clear)) - 1 if not clear.all() else 128
             low, high = (
                 trials[max(last, 0), phalanx],

@@ -178,6 +178,6 @@ def _legend(foot: Foot, arm: float) -> list[Key]:
         (TOUCHING, "mere touch"),
         (PENETRATING, "penetration"),
     ]
-    for name, paint in zip("xyz", AXIS_PAINTS, strict=True):
-        pairs.append((paint, f"{name}, {arm * 1e3:g} mm long"))
+    directions = zip(("x forward", "y left", "z up"), AXIS_PAINTS, strict=True)
+    pairs += [(paint, f"{name}, {arm * 1e3:g} mm") for name, paint in directions]
     return [Key(paint.css, meaning) for paint, meaning in pairs]
