@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import pickle
 
@@ -152,7 +153,8 @@ def test_it_survives_pickling(owl):
 
 def test_lengths_scale_with_the_foot():
     controls = np.random.default_rng(6).random(14)
-    large = FootModel(PARROT.replace(scale=0.032, thickness=0.005)).forward(controls)
+    sizes = {"scale": 2 * PARROT.scale, "thickness": 2 * PARROT.thickness}
+    large = FootModel(PARROT.replace(**sizes)).forward(controls)
     small = FootModel(PARROT).forward(controls)
     assert large == pytest.approx(2 * small, abs=1e-15)
 
@@ -183,7 +185,7 @@ def test_a_urdf_on_a_larger_robot_keeps_its_other_joints_neutral():
 
 URDF = to_urdf(PARROT)
 FIRST_LIMIT = (
-    '<limit effort="10.0" lower="0" upper="1.3962634015954636" velocity="20.0"/>'
+    f'<limit effort="10.0" lower="0" upper="{PARROT.omega!r}" velocity="20.0"/>'
 )
 
 
@@ -207,6 +209,7 @@ FIRST_LIMIT = (
         (URDF.replace('"revolute"', '"continuous"', 1), "does not turn by one angle"),
         (URDF.replace('link="foot"', 'link="finger1_phalanx2"', 1), "finger1_joint1"),
     ],
+    ids=itertools.count(),
 )
 def test_a_malformed_urdf_is_one_line_and_silent(capfd, urdf, message):
     with pytest.raises(DescriptionError) as caught:
