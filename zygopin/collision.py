@@ -235,4 +235,4 @@ def _on_line(t: Floats, offsets: Floats, rows: _Rows) -> Floats:
 
 def _unit(bones: Floats) -> float:
     """The farthest that any junction is from the base: the unit of length."""
-    return float(np.sqrt(dot(bones, bones).max()))
+    return float(np.sqrt(dot(bones, bones).max(initial=0.0))) or 1.0
