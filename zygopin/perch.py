@@ -162,7 +162,9 @@ def _colliding(foot: Foot, poses: list[FingerPoses], i: int, j: int) -> Booleans
     skin = foot.radii[parts[0]][:, None] + foot.radii[parts[1]]
     apart = segment_distance(one[:, None, :, None], other[None, :, None, :]) - skin
     apart[..., 0, 0] = np.inf
-    return np.asarray(apart.min(axis=(-2, -1)) < 0.0)
+    # Bare bones that cross have no depth, and the verdict asks for a gap.
+    least = 0.0 if foot.thickness > 0 else Criteria().metres(foot)
+    return np.asarray(apart.min(axis=(-2, -1)) < least)
 
 
 def _opposed(one: FingerPoses, other: FingerPoses) -> Booleans:
