@@ -84,7 +84,8 @@ def plan_perch(
         foot: The foot.
         branch: One branch, of any pose.
         find_height: Also move the branch along z to where it is grasped best.
-        levels: Angles tried at each joint, 2 to 33; the work grows as levels^K.
+        levels: Angles tried at each joint, 2 to 33; the work grows as levels^K, so
+            that fingers of many phalanges get fewer.
 
     Returns:
         The best plan; its `reason` says why where it is no feasible grasp.
@@ -222,25 +223,43 @@ def _reason(report: GraspReport) -> str | None:
     if report.penetrating.any():
         return "every pose of some toe enters the branch: move it down or away"
     if report.grasping:
-        return "the toes that grasp run into each other: take a thicker branch"
-    toes = [
-        foot.fingers[i].name for i in np.unique(foot.finger_of_phalanx[report.touching])
-    ]
-    if not toes:
+        return (
+            "the toes that grasp run into each other: take a thicker branch or "
+            "more splay"
+        )
+    if not report.touching.any():
         gap = float(report.clearance.min())
         return (
             f"no toe reaches the branch: the nearest stays {gap:.4g} m away; "
             "move the branch nearer or take a larger foot"
         )
     if not report.stable:
-        return (
-            f"only {', '.join(toes)} can touch the branch, and no toe opposite: "
-            "move the branch under the foot"
-        )
+        return _unstable(report)
     angle = float(np.degrees(np.arccos(np.clip(report.scalar_product, -1, 1))))
     return (
         f"contacts of opposing toes reach {angle:.0f}° around the branch of radius "
         f"{float(branch.radius):.4g} m, a grasp needs 90°: {_better_size(report)}"
+    )
+
+
+def _unstable(report: GraspReport) -> str:
+    """Why toes that touch do not make a stable perch, in one line."""
+    foot = report.foot
+    toes = set(foot.finger_of_phalanx[report.touching].tolist())
+    names = ", ".join(foot.fingers[toe].name for toe in sorted(toes))
+    if any(toes.issuperset(pair) for pair in foot.opposable_pairs):
+        return (
+            f"{names} touch the branch, but opposing toes not along a phalanx: "
+            "move the branch nearer to the base or take a thinner one"
+        )
+    if not foot.opposable_pairs:
+        return (
+            f"{names} can touch the branch, but no two fingers of this foot are "
+            "opposite: give it a finger that points forward and one that points back"
+        )
+    return (
+        f"only {names} can touch the branch, and no toe opposite: "
+        "move the branch under the foot"
     )
 
 
