@@ -182,7 +182,8 @@ class GraspReport:
         """
         apart = np.abs(self.clearance - other.clearance)
         both = np.isfinite(self.finger_clearance) & np.isfinite(other.finger_clearance)
-        fingers = np.where(both, self.finger_clearance - other.finger_clearance, 0.0)
+        ours, theirs = self.finger_clearance[both], other.finger_clearance[both]
+        fingers = ours - theirs
         return float(max(apart.max(initial=0.0), np.abs(fingers).max(initial=0.0)))
 
 
