@@ -216,6 +216,8 @@ def _core(bones: Floats, points: Floats) -> tuple[Floats, Floats]:
 def _direction(offsets: Floats, gaps: Floats, rows: _Rows) -> Floats:
     """Unit vectors from branch to phalanx; across both where they cross."""
     across = np.cross(rows.axis, rows.bone[:, 1] - rows.bone[:, 0])
+    spare = np.cross(rows.axis, np.eye(3)[np.argmin(np.abs(rows.axis), axis=1)])
+    across = np.where((across == 0).all(axis=1)[:, None], spare, across)
     apart = (np.abs(gaps) > COINCIDENT)[:, None]
     vectors = np.where(apart, np.sign(gaps)[:, None] * offsets, across)
     return np.asarray(vectors / np.linalg.norm(vectors, axis=1, keepdims=True))
