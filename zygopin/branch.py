@@ -117,13 +117,19 @@ class Branch:
             R_world_branch, shape (…, 3, 3), right-handed.
         """
         reference = np.broadcast_to(np.asarray(reference, float), self.axis.shape)
-        along = np.einsum("...i,...i->...", reference, self.axis)[..., None]
-        flat = reference - along * self.axis
+        flat = self._across(reference)
         weak = np.linalg.norm(flat, axis=-1, keepdims=True) < 1e-6
         spare = np.eye(3)[np.argmin(np.abs(self.axis), axis=-1)]
         first = np.where(weak, np.cross(self.axis, spare), flat)
         first = first / np.linalg.norm(first, axis=-1, keepdims=True)
+        first = self._across(first)  # again: what is left of a near axis is rounded
+        first = first / np.linalg.norm(first, axis=-1, keepdims=True)
         return np.stack([first, np.cross(self.axis, first), self.axis], axis=-1)
+
+    def _across(self, vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The part of vectors that is perpendicular to the axis, shape (…, 3)."""
+        along = np.einsum("...i,...i->...", vectors, self.axis)[..., None]
+        return np.asarray(vectors - along * self.axis)
 
     def broadcast(self, shape: tuple[int, ...]) -> Branch:
         """This branch as a flat batch.
