@@ -11,6 +11,7 @@ from importlib.metadata import version as _version
 
 _HOMES = {
     "branch": ("Branch", "branch_axis"),
+    "description": ("to_srdf", "to_urdf", "write_description"),
     "errors": (
         "DescriptionError",
         "FileError",
@@ -18,10 +19,14 @@ _HOMES = {
         "UnknownNameError",
         "ZygopinError",
     ),
+    "grasp": ("Criteria", "GraspReport", "check_grasp", "make_engine"),
     "foot": ("Finger", "Foot", "zygodactyl_fingers"),
     "kinematics": ("forward_kinematics",),
+    "model": ("FootModel",),
     "paths": ("PACKAGE_PATH", "PRESETS_PATH", "SRDF_PATH", "URDF_PATH", "XACRO_PATH"),
+    "perch": ("PerchPlan", "plan_perch"),
     "presets": ("preset_names",),
+    "scene": ("export_scene",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
@@ -32,17 +37,28 @@ __all__ = [
     "URDF_PATH",
     "XACRO_PATH",
     "Branch",
+    "Criteria",
     "DescriptionError",
     "FileError",
     "Finger",
     "Foot",
+    "FootModel",
+    "GraspReport",
     "ParameterError",
+    "PerchPlan",
     "UnknownNameError",
     "ZygopinError",
     "__version__",
     "branch_axis",
+    "check_grasp",
+    "export_scene",
     "forward_kinematics",
+    "make_engine",
+    "plan_perch",
     "preset_names",
+    "to_srdf",
+    "to_urdf",
+    "write_description",
     "zygodactyl_fingers",
 ]
 

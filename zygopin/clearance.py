@@ -59,7 +59,7 @@ def branch_clearance(bones: Floats, radii: Floats, branch: Branch) -> Clearance:
     t_line = pose.nearest_on_line()
     t = np.clip(t_line, 0.0, 1.0)
     radial, axial = pose.radial(t), pose.axial(t)
-    gap = _norm(radial) - pose.radius
+    gap = norm(radial) - pose.radius
     lateral = np.abs(axial) - pose.half <= np.minimum(gap, 0.0)
     normal = _radial_normal(radial, pose)
     if not lateral.all():
@@ -85,13 +85,8 @@ def segment_distance(first: Floats, second: Floats) -> Floats:
     p, u = first[..., 0, :], first[..., 1, :] - first[..., 0, :]
     q, v = second[..., 0, :], second[..., 1, :] - second[..., 0, :]
     w = p - q
-    uu, vv, uv, uw, vw = dot(u, u), dot(v, v), dot(u, v), dot(u, w), dot(v, w)
-    determinant = uu * vv - uv * uv
-    crossing = determinant > PARALLEL * uu * vv
-    s = np.divide(uv * vw - uw * vv, determinant, np.zeros_like(uv), where=crossing)
-    t = np.clip((uv * np.clip(s, 0, 1) + vw) / vv, 0, 1)
-    s = np.clip((uv * t - uw) / uu, 0, 1)
-    return _norm(w + s[..., None] * u - t[..., None] * v)
+    s, t = _nearest_parameters(dot(u, u), dot(v, v), dot(u, v), dot(u, w), dot(v, w))
+    return norm(w + s[..., None] * u - t[..., None] * v)
 
 
 def skin_distance(
@@ -108,8 +103,35 @@ def skin_distance(
         Signed distances [m], shape (…, M): negative where skins overlap.
     """
     i, j = pairs
-    cores = segment_distance(bones[..., i, :, :], bones[..., j, :, :])
-    return cores - radii[i] - radii[j]
+    start, line = bones[..., 0, :], bones[..., 1, :] - bones[..., 0, :]
+    # All products at once, and then the pairs: a third of the time of pairs first.
+    lines, starts = line @ line.swapaxes(-1, -2), line @ start.swapaxes(-1, -2)
+    s, t = _nearest_parameters(
+        lines[..., i, i],
+        lines[..., j, j],
+        lines[..., i, j],
+        starts[..., i, i] - starts[..., i, j],
+        starts[..., j, i] - starts[..., j, j],
+    )
+    square = np.zeros(s.shape)
+    for x, u in zip(np.moveaxis(start, -1, 0), np.moveaxis(line, -1, 0), strict=True):
+        square += (x[..., i] + s * u[..., i] - x[..., j] - t * u[..., j]) ** 2
+    return np.asarray(np.sqrt(square) - radii[i] - radii[j])
+
+
+def _nearest_parameters(
+    uu: Floats, vv: Floats, uv: Floats, uw: Floats, vw: Floats
+) -> tuple[Floats, Floats]:
+    """Where two segments p + s·u and q + t·v are nearest, from products with p − q.
+
+    The lines' own solution, clamped, then each parameter for the other clamped one;
+    for parallel lines any s serves.
+    """
+    determinant = uu * vv - uv * uv
+    crossing = determinant > PARALLEL * uu * vv
+    s = np.divide(uv * vw - uw * vv, determinant, np.zeros_like(uv), where=crossing)
+    t = np.clip((uv * np.clip(s, 0, 1) + vw) / vv, 0, 1)
+    return np.clip((uv * t - uw) / uu, 0, 1), t
 
 
 @dataclass(frozen=True)
@@ -170,16 +192,16 @@ class _Relative:
 
 def _radial_normal(radial: Floats, pose: _Relative) -> Floats:
     """Unit vectors away from the axis; across the bone where it meets the axis."""
-    length = _norm(radial)
+    length = norm(radial)
     on_axis = length <= PARALLEL * pose.radius
     if on_axis.any():
         flat = pose.projected()[on_axis]
         axis = pose.axis[on_axis]
         spare = np.eye(3)[np.argmin(np.abs(axis), axis=-1)]
-        parallel = _norm(flat) <= PARALLEL * _norm(pose.bone[on_axis])
+        parallel = norm(flat) <= PARALLEL * norm(pose.bone[on_axis])
         across = np.cross(axis, np.where(parallel[..., None], spare, flat))
         radial, length = radial.copy(), length.copy()
-        radial[on_axis], length[on_axis] = across, _norm(across)
+        radial[on_axis], length[on_axis] = across, norm(across)
     return np.asarray(radial / length[..., None])
 
 
@@ -211,7 +233,7 @@ def _solid_distance(pose: _Relative, t: Floats) -> tuple[Floats, Floats, Any]:
     radial, axial = pose.radial(t), pose.axial(t)
     outward = _radial_normal(radial, pose)
     endward = np.sign(axial)[..., None] * pose.axis
-    side, end = _norm(radial) - pose.radius, np.abs(axial) - pose.half
+    side, end = norm(radial) - pose.radius, np.abs(axial) - pose.half
     rim = (side > 0) & (end > 0)
     corner = side[..., None] * outward + end[..., None] * endward
     gap = np.where(rim, np.hypot(side, end), np.maximum(side, end))
@@ -226,6 +248,6 @@ def dot(first: Floats, second: Floats) -> Floats:
     return np.asarray(np.einsum("...i,...i->...", first, second))
 
 
-def _norm(vectors: Floats) -> Floats:
+def norm(vectors: Floats) -> Floats:
     """Lengths along the last axis."""
     return np.sqrt(dot(vectors, vectors))

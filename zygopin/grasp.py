@@ -331,7 +331,7 @@ def _least_product(foot: Foot, vectors: Floats, tangent: Booleans) -> Floats:
     for one, other in foot.opposable_pairs:
         opposed |= (finger[:, None] == one) & (finger == other)
     i, j = np.nonzero(opposed)
-    products = np.einsum("...i,...i->...", vectors[..., i, :], vectors[..., j, :])
+    products = (vectors @ vectors.swapaxes(-1, -2))[..., i, j]
     both = tangent[..., i] & tangent[..., j]
     least = np.where(both, products, np.inf).min(axis=-1, initial=np.inf)
     return np.where(np.isfinite(least), least, np.nan)

@@ -13,7 +13,11 @@ from zygopin.paths import PRESETS_PATH
 
 
 def preset_names() -> tuple[str, ...]:
-    """Names of the shipped presets, sorted."""
+    """Names of the shipped presets.
+
+    Returns:
+        The names, sorted.
+    """
     return tuple(sorted(path.stem for path in PRESETS_PATH.glob("*.yaml")))
 
 

@@ -1,0 +1,69 @@
+"""The package's shape: modules import only from those below them."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import zygopin
+
+PACKAGE = Path(zygopin.__file__).parent
+
+LAYERS = (
+    "errors",
+    "checks",
+    "paths",
+    "files",
+    "presets",
+    "foot",
+    "names",
+    "branch",
+    "description",
+    "kinematics",
+    "urdf_check",
+    "model",
+    "clearance",
+    "collision",
+    "grasp",
+    "wrap",
+    "perch",
+    "camera",
+    "solids",
+    "viewer",
+    "canvas",
+    "drawing",
+    "caption",
+    "scene",
+    "output",
+    "options",
+    "cli",
+    "__main__",
+)
+"""From parameters to the command line; `__init__` re-exports and stands outside."""
+
+
+def imported(module: str) -> set[str]:
+    """Modules of the package that a module imports, anywhere in its text."""
+    tree = ast.parse((PACKAGE / f"{module}.py").read_text(encoding="utf-8"))
+    found = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.module == "zygopin":
+            found.update(alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            head, _, tail = node.module.partition(".")
+            found.update({tail.split(".")[0]} if head == "zygopin" else ())
+        elif isinstance(node, ast.Import):
+            names = (alias.name.split(".") for alias in node.names)
+            found.update(name[1] for name in names if name[0] == "zygopin" and name[1:])
+    return found
+
+
+def test_every_module_has_its_layer():
+    modules = {path.stem for path in PACKAGE.glob("*.py")} - {"__init__"}
+    assert modules == set(LAYERS)
+
+
+def test_modules_import_only_from_layers_below():
+    for place, module in enumerate(LAYERS):
+        above = imported(module) - set(LAYERS[:place])
+        assert not above, f"{module} imports {sorted(above)}"

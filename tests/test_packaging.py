@@ -1,0 +1,67 @@
+"""What is shipped: the wheel carries the description and the page, the scripts run."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+import zygopin
+
+ROOT = Path(__file__).parent.parent
+
+
+@pytest.fixture(scope="module")
+def wheel_names(tmp_path_factory) -> set[str]:
+    folder = tmp_path_factory.mktemp("wheel")
+    subprocess.run(
+        [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder)],
+        cwd=ROOT,
+        check=True,
+        capture_output=True,
+    )
+    (wheel,) = folder.glob("*.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        return set(archive.namelist())
+
+
+def test_the_wheel_carries_what_the_package_reads(wheel_names):
+    shipped = {
+        f"zygopin/urdf/{path.relative_to(ROOT / 'urdf')}"
+        for path in (ROOT / "urdf").rglob("*")
+        if path.is_file()
+    }
+    shipped |= {f"zygopin/assets/page.{kind}" for kind in ("html", "css", "js")}
+    assert wheel_names >= shipped | {"zygopin/py.typed", "zygopin/__init__.pyi"}
+
+
+def test_the_wheel_carries_nothing_else(wheel_names):
+    assert not [name for name in wheel_names if name.startswith(("tests", "scripts"))]
+
+
+def test_an_editable_install_reads_the_checkout():
+    assert ROOT / "urdf" == zygopin.PACKAGE_PATH
+    for path in (zygopin.URDF_PATH, zygopin.SRDF_PATH, zygopin.XACRO_PATH):
+        assert path.is_file()
+
+
+def test_the_engines_agree_in_a_small_run_of_the_comparison():
+    result = subprocess.run(
+        [sys.executable, str(ROOT / "scripts/compare-engines"), "--cases", "2000"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert result.returncode == 0, result.stdout + result.stderr
+    assert result.stdout.splitlines()[-1] == "agree"
+
+
+def test_the_benchmark_runs():
+    subprocess.run(
+        [sys.executable, str(ROOT / "scripts/benchmark"), "--configurations", "100"],
+        check=True,
+        capture_output=True,
+    )

@@ -1,0 +1,189 @@
+"""The caption of a grasp's scene: what is shown, the verdict, and the colours."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from html import escape
+
+import numpy as np
+
+from zygopin.grasp import GraspReport
+
+SIGNIFICANT = 4
+"""Figures of a length as long as the foot; shorter ones keep the same last place."""
+
+NONE = "none"
+
+
+@dataclass(frozen=True)
+class Key:
+    """An entry of the legend.
+
+    Attributes:
+        colour: A CSS colour.
+        meaning: What it stands for, as plain text.
+    """
+
+    colour: str
+    meaning: str
+
+
+def verdict_words(report: GraspReport) -> str:
+    """The verdict on a grasp in one line.
+
+    Args:
+        report: Of one configuration.
+
+    Returns:
+        Plain text.
+    """
+    if report.grasping:
+        held = "Grasping"
+    elif report.stable:
+        held = "Stable, not grasping"
+    elif np.any(report.touching | report.tangent):
+        held = "Touching, not stable"
+    else:
+        held = "Nothing tangent to the branch"
+    if report.feasible:
+        return f"{held}, feasible"
+    why = "a phalanx penetrates" if np.any(report.penetrating) else "fingers collide"
+    return f"{held}, not feasible: {why}"
+
+
+def caption(report: GraspReport, title: str, colour: str, legend: Iterable[Key]) -> str:
+    """The caption as HTML, every text escaped.
+
+    Args:
+        report: Of one configuration.
+        title: The scene's title, as plain text.
+        colour: The verdict's CSS colour.
+        legend: What the colours stand for.
+
+    Returns:
+        HTML.
+    """
+    words = escape(verdict_words(report))
+    return "\n".join(
+        (
+            f"<h1>{escape(title)}</h1>",
+            f'<p class="verdict" style="border-color: {escape(colour)}">{words}</p>',
+            _section("Contact", contact_rows(report)),
+            _legend(legend),
+            _section("Foot", foot_rows(report)),
+            _section("Branch", branch_rows(report)),
+        )
+    )
+
+
+def contact_rows(report: GraspReport) -> dict[str, str]:
+    """What the check found, name by value.
+
+    Args:
+        report: Of one configuration.
+
+    Returns:
+        Plain texts.
+    """
+    least = float(np.min(report.clearance))
+    nearest = "Largest penetration" if np.any(report.penetrating) else "Least clearance"
+    lengths = _Lengths(report.foot.size)
+    return {
+        "Tangent phalanges": f"{np.sum(report.tangent)} of {report.foot.phalanx_count}",
+        "Touching phalanges": str(np.sum(report.touching)),
+        "Penetrating phalanges": str(np.sum(report.penetrating)),
+        "Scalar product": _ratio(report.scalar_product),
+        "… base to tip": _ratio(report.scalar_product_base_to_tip),
+        nearest: lengths(abs(least) if np.any(report.penetrating) else least),
+        "Between fingers": lengths(float(report.finger_clearance)),
+        "Tolerance": f"{report.tolerance * 1e3:.1e} mm",
+    }
+
+
+def foot_rows(report: GraspReport) -> dict[str, str]:
+    """The foot's parameters, name by value.
+
+    Args:
+        report: Of one configuration.
+
+    Returns:
+        Plain texts.
+    """
+    foot = report.foot
+    lengths = _Lengths(foot.size)
+    return {
+        "Name": foot.name,
+        "Scaling factor ρ": f"{foot.rho:.6g}",
+        "Largest angle ω": _degrees(foot.omega),
+        "Splay Ω": _degrees(foot.splay),
+        "Scale": lengths(foot.scale),
+        "Thickness": lengths(foot.thickness),
+    }
+
+
+def branch_rows(report: GraspReport) -> dict[str, str]:
+    """The branch's size and pose, name by value.
+
+    Args:
+        report: Of one configuration.
+
+    Returns:
+        Plain texts.
+    """
+    branch = report.branch
+    lengths = _Lengths(report.foot.size)
+    x, y, z = (float(part) for part in branch.axis * (1 if branch.axis[1] >= 0 else -1))
+    return {
+        "Radius": lengths(float(branch.radius)),
+        "Height": lengths(float(branch.centre[2])),
+        "Yaw": _degrees(math.atan2(-x, y)),
+        "Pitch": _degrees(math.asin(max(-1.0, min(1.0, z)))),
+        "Length": "infinite"
+        if branch.length is None
+        else lengths(float(branch.length)),
+    }
+
+
+@dataclass(frozen=True)
+class _Lengths:
+    """Lengths in millimetres, down to the same place for a foot of some size [m]."""
+
+    size: float
+
+    def __call__(self, metres: float) -> str:
+        if not math.isfinite(metres):
+            return NONE
+        leading = math.floor(math.log10(self.size * 1e3))
+        return f"{_fixed(metres * 1e3, max(0, SIGNIFICANT - leading))} mm"
+
+
+def _ratio(value: float | np.ndarray) -> str:
+    """A number without unit, or that there is none."""
+    return _fixed(float(value), 4) if np.isfinite(value) else NONE
+
+
+def _degrees(radians: float) -> str:
+    return f"{_fixed(math.degrees(radians), 2)}°"
+
+
+def _fixed(value: float, decimals: int) -> str:
+    """A number with a true minus sign, and none on zero."""
+    return f"{round(value, decimals) + 0.0:.{decimals}f}".replace("-", "−")
+
+
+def _section(name: str, rows: dict[str, str]) -> str:
+    """A heading and a table under it."""
+    body = "".join(
+        f'<tr><th scope="row">{escape(key)}</th><td>{escape(value)}</td></tr>'
+        for key, value in rows.items()
+    )
+    return f"<section><h2>{escape(name)}</h2><table>{body}</table></section>"
+
+
+def _legend(entries: Iterable[Key]) -> str:
+    """The list of colours."""
+    swatch = '<li><span class="swatch" style="background: {}"></span>{}</li>'
+    items = "".join(swatch.format(escape(e.colour), escape(e.meaning)) for e in entries)
+    return f"<section><h2>Colours</h2><ul>{items}</ul></section>"

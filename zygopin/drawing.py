@@ -1,0 +1,181 @@
+"""The parts of a grasp's scene: foot, branch, contacts, directions."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from zygopin.branch import Branch
+from zygopin.camera import View
+from zygopin.canvas import Canvas
+from zygopin.foot import Foot
+from zygopin.grasp import GraspReport
+from zygopin.solids import Paint
+
+FINGER_PAINTS = tuple(
+    map(Paint, (0x3F6FA8, 0x7D5BA6, 0x2B8F8C, 0xB85C85, 0x5A6B3B, 0x54669B))
+)
+"""Colours of the fingers in order; a foot with more of them starts again."""
+
+WOOD = Paint(0x9A6A3C, opacity=0.76)
+RINGS = tuple(
+    (inner, outer, Paint(colour, opacity=0.8))
+    for inner, outer, colour in (
+        (0.91, 1.0, 0x7E5530),
+        (0.63, 0.91, 0xDDBE94),
+        (0.60, 0.63, 0xC29E70),
+        (0.32, 0.60, 0xDDBE94),
+        (0.29, 0.32, 0xC29E70),
+        (0.0, 0.29, 0xDDBE94),
+    )
+)
+"""Cut faces of the branch: inner and outer radii over its own, and paints."""
+
+HORN, BASE = Paint(0x2E2A27), Paint(0x5F6670)
+AXIS_PAINTS = tuple(Paint(c, on_top=True) for c in (0xC0392B, 0x3A9A4A, 0x2F5FC4))
+
+GRASPING = Paint(0x1E9E4A, on_top=True)
+STABLE = Paint(0xF0A30A, on_top=True)
+TOUCHING = Paint(0x7F93AD, on_top=True)
+PENETRATING = Paint(0xD62828, on_top=True)
+
+BARE_BONE = 0.02
+"""Radius of a drawn bone without skin, over the longest phalanx."""
+
+KNUCKLE = 1.05
+"""Radius of a drawn joint over the radius of the phalanx before it."""
+
+
+def finger_paint(index: int) -> Paint:
+    """The colour of a finger.
+
+    Args:
+        index: Its place among the fingers, from 0.
+
+    Returns:
+        The paint.
+    """
+    return FINGER_PAINTS[index % len(FINGER_PAINTS)]
+
+
+def drawn_radii(foot: Foot) -> NDArray[np.float64]:
+    """Radii that the phalanges are drawn with: their skin's, or a thin rod's.
+
+    Args:
+        foot: The foot.
+
+    Returns:
+        Radii [m], shape (P,).
+    """
+    thin = BARE_BONE * float(foot.lengths.max())
+    return foot.radii if foot.thickness > 0 else np.full(foot.phalanx_count, thin)
+
+
+def draw_foot(canvas: Canvas, foot: Foot, bones: NDArray[np.float64]) -> None:
+    """Draw the phalanges, the joints before them, the talons and the base.
+
+    Args:
+        canvas: What it is drawn on.
+        foot: The foot.
+        bones: Its bones [m], shape (P, 2, 3).
+    """
+    radii = drawn_radii(foot)
+    for index, (name, part) in enumerate(foot.finger_slices.items()):
+        paint = finger_paint(index)
+        for rank, phalanx in enumerate(range(part.start, part.stop), start=1):
+            link = f"foot/{name}/phalanx{rank}"
+            canvas.capsule(link, bones[phalanx], radii[phalanx], paint)
+            if rank > 1:
+                knuckle = KNUCKLE * radii[phalanx - 1]
+                joint = f"foot/{name}/joint{rank}"
+                canvas.ball(joint, bones[phalanx, 0], knuckle, paint.shaded(0.7))
+        _draw_talon(canvas, f"foot/{name}/talon", bones[part.stop - 1], radii[part][-1])
+    canvas.ball("foot/base", bones[0, 0], 1.2 * float(radii.max()), BASE)
+
+
+def draw_branch(canvas: Canvas, branch: Branch, stretch: tuple[float, float]) -> None:
+    """Draw a stretch of a branch, with its cut faces.
+
+    Args:
+        canvas: What it is drawn on.
+        branch: One branch.
+        stretch: Where it starts and ends along the axis from the centre [m].
+    """
+    ends = branch.centre + np.outer(stretch, branch.axis)
+    radius = float(branch.radius)
+    canvas.tube("branch/bark", ends, radius, WOOD)
+    for name, face in (("end", ends), ("start", ends[::-1])):
+        facing = np.stack([face[1], 2 * face[1] - face[0]])
+        for number, (inner, outer, paint) in enumerate(RINGS, start=1):
+            path = f"branch/{name}/ring{number}"
+            canvas.ring(path, facing, (inner * radius, outer * radius), paint)
+
+
+def draw_contacts(canvas: Canvas, report: GraspReport) -> None:
+    """Draw the points where phalanges meet the branch, with their normals.
+
+    Args:
+        canvas: What they are drawn on.
+        report: Of one configuration.
+    """
+    size = 0.014 * canvas.unit
+    met = report.tangent | report.touching | report.penetrating
+    for phalanx in np.flatnonzero(met):
+        point, paint = report.point[phalanx], contact_paint(report, int(phalanx))
+        tip = point + 14 * size * report.normal[phalanx]
+        path = f"contacts/phalanx{phalanx}"
+        canvas.ball(f"{path}/point", point, 1.6 * size, paint)
+        canvas.arrow(f"{path}/normal", np.stack([point, tip]), 0.45 * size, paint)
+
+
+def draw_axes(canvas: Canvas, view: View) -> float:
+    """Draw the directions x, y and z in a corner, as long as a round length.
+
+    Args:
+        canvas: What they are drawn on.
+        view: Whose frame's corner it is.
+
+    Returns:
+        The arms' length [m].
+    """
+    arm = _round_length(0.24 * view.unit)
+    corner = view.corner(0.68, -0.86)
+    for name, direction, paint in zip("xyz", np.eye(3), AXIS_PAINTS, strict=True):
+        ends = np.stack([corner, corner + arm * direction])
+        canvas.arrow(f"axes/{name}", ends, 0.008 * view.unit, paint)
+    return arm
+
+
+def contact_paint(report: GraspReport, phalanx: int) -> Paint:
+    """The colour of a contact.
+
+    Args:
+        report: Of one configuration.
+        phalanx: Which phalanx meets the branch.
+
+    Returns:
+        Its paint: penetrating, or tangent by the whole grasp's verdict, or touching.
+    """
+    if report.penetrating[phalanx]:
+        return PENETRATING
+    if report.tangent[phalanx] and report.stable:
+        return GRASPING if report.grasping and report.feasible else STABLE
+    return TOUCHING
+
+
+def _draw_talon(
+    canvas: Canvas, path: str, bone: NDArray[np.float64], radius: float
+) -> None:
+    """A cone that goes on from the last phalanx: an ornament, not in the model."""
+    along = (bone[1] - bone[0]) / np.linalg.norm(bone[1] - bone[0])
+    ends = np.stack([bone[1] + 0.45 * radius * along, bone[1] + 2.8 * radius * along])
+    canvas.rod(path, ends, (0.85 * radius, 0.0), HORN)
+
+
+def _round_length(metres: float) -> float:
+    """The nearest of 1, 2, 5 times a power of ten to a length [m]."""
+    power = 10.0 ** math.floor(math.log10(metres))
+    steps = (step * power for step in (1, 2, 5, 10))
+    return min(steps, key=lambda step: abs(math.log(step / metres)))

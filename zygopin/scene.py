@@ -1,0 +1,183 @@
+"""A grasp as a scene to look at: one HTML file that works offline."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from zygopin.branch import Branch
+from zygopin.camera import View, framed, grasp_direction
+from zygopin.canvas import Canvas
+from zygopin.caption import Key, caption
+from zygopin.drawing import (
+    AXIS_PAINTS,
+    GRASPING,
+    PENETRATING,
+    STABLE,
+    TOUCHING,
+    WOOD,
+    draw_axes,
+    draw_branch,
+    draw_contacts,
+    draw_foot,
+    drawn_radii,
+    finger_paint,
+)
+from zygopin.errors import ParameterError
+from zygopin.files import write_text
+from zygopin.foot import Foot
+from zygopin.grasp import GraspReport
+from zygopin.solids import Paint
+from zygopin.viewer import Recorder, page, set_stage
+
+OVERHANG = (0.21, 0.5)
+"""What is drawn of an infinite branch beyond the foot, over the foot's size: from
+a twig to a trunk."""
+
+WIDE_BRANCH = 0.8
+"""Radius over the foot's size from which the frame leaves the branch out."""
+
+
+def export_scene(
+    report: GraspReport, path: Path | str, *, title: str | None = None
+) -> Path:
+    """Write a grasp as one HTML file with meshcat's viewer inside.
+
+    The file asks for nothing: it works offline, from a disk or a server. The same
+    report gives the same bytes.
+
+    Args:
+        report: What `check_grasp` returned for one configuration.
+        path: The file; its folders are made where they are missing.
+        title: Title in plain text; None: the foot's name and the branch's radius.
+
+    Returns:
+        The path.
+
+    Raises:
+        ParameterError: The report is of a batch.
+        FileError: The file cannot be written.
+    """
+    _check_single(report)
+    title = _default_title(report) if title is None else title
+    view = grasp_view(report)
+    recorder = Recorder()
+    set_stage(recorder, view)
+    canvas = Canvas(recorder, view.target, view.unit)
+    draw_foot(canvas, report.foot, report.bones)
+    draw_branch(canvas, report.branch, drawn_stretch(report))
+    draw_contacts(canvas, report)
+    arm = draw_axes(canvas, view)
+    words = caption(report, title, verdict_paint(report).css, _legend(report.foot, arm))
+    return write_text(path, page(recorder, view, title, words))
+
+
+def grasp_view(report: GraspReport) -> View:
+    """The view that frames the foot, and a branch of the foot's own order of size.
+
+    Args:
+        report: Of one configuration.
+
+    Returns:
+        The view.
+    """
+    points, radii = report.bones.reshape(-1, 3), np.repeat(drawn_radii(report.foot), 2)
+    if report.branch.radius < WIDE_BRANCH * report.foot.size:
+        rims = _rims(report.branch, infinite_stretch(report))
+        points = np.concatenate([points, rims])
+        radii = np.concatenate([radii, np.zeros(len(rims))])
+    return framed(points, radii, grasp_direction(report.branch))
+
+
+def drawn_stretch(report: GraspReport) -> tuple[float, float]:
+    """The part of the branch that is drawn, along its axis from its centre.
+
+    Args:
+        report: Of one configuration.
+
+    Returns:
+        Start and end [m]: the branch's own, or beyond the foot on both sides.
+    """
+    half = float(report.branch.half_length)
+    return (-half, half) if math.isfinite(half) else infinite_stretch(report)
+
+
+def infinite_stretch(report: GraspReport) -> tuple[float, float]:
+    """The part of an infinite branch that shows how the foot lies on it.
+
+    Args:
+        report: Of one configuration.
+
+    Returns:
+        Start and end along the axis from the branch's centre [m].
+    """
+    low, high = _foot_span(report)
+    least, most = (share * report.foot.size for share in OVERHANG)
+    beyond = min(max(0.5 * float(report.branch.radius), least), most)
+    return low - beyond, high + beyond
+
+
+def verdict_paint(report: GraspReport) -> Paint:
+    """The colour of the verdict on a whole grasp.
+
+    Args:
+        report: Of one configuration.
+
+    Returns:
+        The paint.
+    """
+    if not report.feasible:
+        return PENETRATING
+    if report.stable:
+        return GRASPING if report.grasping else STABLE
+    return TOUCHING
+
+
+def _check_single(report: GraspReport) -> None:
+    """The report is of one configuration."""
+    shape = report.clearance.shape
+    if len(shape) != 1:
+        remedy = "pass the controls of one configuration to check_grasp"
+        raise ParameterError(
+            "report.clearance.shape", shape, "of the form (P,)", remedy
+        )
+
+
+def _default_title(report: GraspReport) -> str:
+    name = report.foot.name.replace("_", " ").capitalize()
+    return (
+        f"{name} on a branch of radius {float(report.branch.radius) * 1e3:.4g}\u00a0mm"
+    )
+
+
+def _rims(branch: Branch, stretch: tuple[float, float]) -> NDArray[np.float64]:
+    """Points of the circles around both ends of a stretch [m], shape (N, 3)."""
+    turn = np.linspace(0, 2 * math.pi, 24, endpoint=False)
+    circle = np.stack([np.cos(turn), np.sin(turn)], -1) @ branch.frame()[:, :2].T
+    middles = branch.centre + np.outer(stretch, branch.axis)
+    rims: NDArray[np.float64] = middles[:, None] + float(branch.radius) * circle
+    return rims.reshape(-1, 3)
+
+
+def _foot_span(report: GraspReport) -> tuple[float, float]:
+    """How far the foot reaches along the branch's axis, from its centre [m]."""
+    along = (report.bones - report.branch.centre) @ report.branch.axis
+    return float(along.min()), float(along.max())
+
+
+def _legend(foot: Foot, arm: float) -> list[Key]:
+    """What each colour stands for."""
+    pairs = [(finger_paint(i), finger.name) for i, finger in enumerate(foot.fingers)]
+    pairs += [
+        (WOOD, "branch"),
+        (GRASPING, "grasping contact"),
+        (STABLE, "stable contact"),
+        (TOUCHING, "mere touch"),
+        (PENETRATING, "penetration"),
+    ]
+    directions = zip(("x forward", "y left", "z up"), AXIS_PAINTS, strict=True)
+    pairs += [(paint, f"{name}, {arm * 1e3:g} mm") for name, paint in directions]
+    return [Key(paint.css, meaning) for paint, meaning in pairs]

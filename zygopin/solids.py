@@ -1,0 +1,110 @@
+"""Surfaces as meshcat's viewer reads them, with names that never change."""
+
+from __future__ import annotations
+
+import uuid
+from dataclasses import dataclass
+from typing import Any
+
+import meshcat.geometry as shapes
+
+FRONT_SIDE = 0
+"""The viewer's number for drawing a surface from outside only."""
+
+WIDE = 0.15
+"""Radius, in units of the view, from which a cylinder needs more sides."""
+
+_NAMES = uuid.uuid5(uuid.NAMESPACE_DNS, "zygopin.scene")
+
+
+@dataclass(frozen=True)
+class Paint:
+    """How a surface looks.
+
+    Attributes:
+        colour: Colour as 0xRRGGBB.
+        opacity: 1: opaque; less: what is behind shows through.
+        on_top: Whether it is drawn over all else, even from behind.
+    """
+
+    colour: int
+    opacity: float = 1.0
+    on_top: bool = False
+
+    def shaded(self, factor: float) -> Paint:
+        """This paint with its colour's channels multiplied by a factor up to 1."""
+        channels = (int((self.colour >> shift & 0xFF) * factor) for shift in (16, 8, 0))
+        red, green, blue = channels
+        return Paint(red << 16 | green << 8 | blue, self.opacity, self.on_top)
+
+    @property
+    def css(self) -> str:
+        """The colour as CSS writes it."""
+        return f"#{self.colour:06x}"
+
+    def material(self) -> shapes.MeshPhongMaterial:
+        """The viewer's material."""
+        return shapes.MeshPhongMaterial(
+            color=self.colour,
+            opacity=self.opacity,
+            transparent=self.opacity < 1 or self.on_top,
+            side=FRONT_SIDE,
+            depthTest=not self.on_top,
+            shininess=25,
+        )
+
+
+class Sphere(shapes.Sphere):  # type: ignore[misc]
+    """A sphere that is round at any zoom."""
+
+    def lower(self, object_data: dict[str, Any]) -> dict[str, Any]:
+        """The sphere as the viewer reads it."""
+        data: dict[str, Any] = super().lower(object_data)
+        return {**data, "widthSegments": 40, "heightSegments": 28}
+
+
+class Frustum(shapes.Cylinder):  # type: ignore[misc]
+    """A cylinder or cone along y, with more sides the wider it is."""
+
+    def __init__(
+        self, height: float, radii: tuple[float, float], *, tube: bool
+    ) -> None:
+        super().__init__(height, radiusBottom=radii[0], radiusTop=radii[1])
+        self.radialSegments = 48 if max(radii) < WIDE else 192
+        self.tube = tube
+
+    def lower(self, object_data: dict[str, Any]) -> dict[str, Any]:
+        """The frustum as the viewer reads it."""
+        data: dict[str, Any] = super().lower(object_data)
+        return {**data, "openEnded": self.tube}
+
+
+class Ring(shapes.Geometry):  # type: ignore[misc]
+    """A flat ring that faces z, and is not seen from behind."""
+
+    def __init__(self, radii: tuple[float, float]) -> None:
+        super().__init__()
+        self.radii = radii
+
+    def lower(self, _: dict[str, Any]) -> dict[str, Any]:
+        """The ring as the viewer reads it."""
+        inner, outer = self.radii
+        shape = {"innerRadius": inner, "outerRadius": outer, "thetaSegments": 192}
+        return {"uuid": self.uuid, "type": "RingGeometry", **shape}
+
+
+class Solid(shapes.Mesh):  # type: ignore[misc]
+    """A mesh named after its path, with its place in the order of drawing."""
+
+    def __init__(self, path: str, geometry: shapes.Geometry, paint: Paint) -> None:
+        material = paint.material()
+        super().__init__(geometry, material)
+        self.order = int(paint.on_top)
+        for part in (self, geometry, material):
+            part.uuid = str(uuid.uuid5(_NAMES, f"{path}:{type(part).__name__}"))
+
+    def lower(self) -> dict[str, Any]:
+        """The mesh as the viewer reads it."""
+        data: dict[str, Any] = super().lower()
+        data["object"]["renderOrder"] = self.order
+        return data
