@@ -152,7 +152,8 @@ def test_it_survives_pickling(owl):
 
 def test_lengths_scale_with_the_foot():
     controls = np.random.default_rng(6).random(14)
-    large = FootModel(PARROT.replace(scale=0.032, thickness=0.005)).forward(controls)
+    double = {"scale": 2 * PARROT.scale, "thickness": 2 * PARROT.thickness}
+    large = FootModel(PARROT.replace(**double)).forward(controls)
     small = FootModel(PARROT).forward(controls)
     assert large == pytest.approx(2 * small, abs=1e-15)
 
@@ -182,9 +183,7 @@ def test_a_urdf_on_a_larger_robot_keeps_its_other_joints_neutral():
 
 
 URDF = to_urdf(PARROT)
-FIRST_LIMIT = (
-    '<limit effort="10.0" lower="0" upper="1.3962634015954636" velocity="20.0"/>'
-)
+FIRST_LIMIT = URDF[URDF.index("<limit ") :].partition(">")[0] + ">"
 
 
 @pytest.mark.parametrize(
