@@ -36,9 +36,10 @@ ROUNDS = 2
 VERTICAL = 1e-6
 """Squared sine of the slope to the vertical below which a branch has no height."""
 
-PENALTY, GRASP, TOE, TOUCH, CONTACT = 1e6, 1e4, 1e3, 1e2, 1e-1
+PENALTY, GRASP, TOE, TOUCH, CONTACT, NEAR = 1e6, 1e4, 1e3, 1e2, 1e-1, 1e-3
 """Ranks of what a combination is worth: nothing that collides, then a grasp, then
-toes that are tangent, then toes that touch, then radians of wrap, then contacts."""
+toes that are tangent, then toes that touch, then radians of wrap, then contacts,
+then how near a toe comes that does not touch."""
 
 Booleans = NDArray[np.bool_]
 Indices = NDArray[np.intp]
@@ -147,11 +148,14 @@ def _best_combination(foot: Foot, poses: list[FingerPoses]) -> tuple[Indices, fl
 def _worth(foot: Foot, poses: FingerPoses) -> Floats:
     """What each pose of a finger is worth by itself, shape (N,)."""
     entering = (poses.clearance < -Criteria().metres(foot)).any(axis=1)
+    touching = poses.touching.any(axis=1)
+    gap = np.where(touching, 0.0, poses.clearance.min(axis=1))
     return np.asarray(
         TOE * poses.tangent.any(axis=1)
-        + TOUCH * poses.touching.any(axis=1)
+        + TOUCH * touching
         + np.where(np.isfinite(poses.wrap), poses.wrap, 0.0)
         + CONTACT * poses.touching.sum(axis=1)
+        - NEAR * gap / (foot.size + gap)
         - PENALTY * entering
     )
 
@@ -217,7 +221,7 @@ def _lowered(branch: Branch, heights: Floats) -> Branch:
 
 def _reason(report: GraspReport) -> str | None:
     """Why a pose is no feasible grasp, in one line; None where it is one."""
-    foot, branch = report.foot, report.branch
+    branch = report.branch
     if report.grasping and report.feasible:
         return None
     if report.penetrating.any():

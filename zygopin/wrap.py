@@ -298,9 +298,11 @@ def _varied(chain: _Chain, poses: FingerPoses) -> FingerPoses:
         -np.floor(np.maximum(poses.wrap, 2 * BEHIND) / WRAP_BIN),
         np.floor(tips / (TIP_BIN * chain.size)),
     )
+    gap = np.where(poses.touching.any(axis=1), 0.0, poses.clearance.min(axis=1))
     order = np.lexsort(
         (
             poses.clearance.sum(axis=1),
+            gap,
             -poses.touching.sum(axis=1),
             -poses.tangent.sum(axis=1),
             *bins[::-1],
