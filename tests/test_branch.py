@@ -116,7 +116,9 @@ def test_one_branch_has_no_index():
 
 @given(AXES, AXES)
 def test_the_frame_is_a_rotation_with_the_axis_last(axis, reference):
-    frame = Branch(1e-3, across(axis), axis).frame(reference / np.linalg.norm(reference))
+    frame = Branch(1e-3, across(axis), axis).frame(
+        reference / np.linalg.norm(reference)
+    )
     assert frame.T @ frame == pytest.approx(np.eye(3), abs=1e-14)
     assert np.linalg.det(frame) == pytest.approx(1)
     unit = axis / np.linalg.norm(axis)

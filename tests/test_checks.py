@@ -28,7 +28,7 @@ def test_what_is_no_finite_number_is_refused(value):
 
 
 def test_a_condition_is_named_with_its_remedy():
-    with pytest.raises(ParameterError, match="^x = -1 is not positive: turn it round"):
+    with pytest.raises(ParameterError, match=r"^x = -1 is not positive: turn it round"):
         checks.number(
             "x", -1, allowed="positive", where=lambda x: x > 0, remedy="turn it round"
         )

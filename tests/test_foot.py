@@ -74,7 +74,7 @@ def test_lengths_radii_and_size_by_hand():
 
 def test_the_golden_mean_is_the_default():
     assert Foot().rho == GOLDEN_MEAN
-    assert GOLDEN_MEAN**2 == pytest.approx(GOLDEN_MEAN + 1)
+    assert pytest.approx(GOLDEN_MEAN + 1) == GOLDEN_MEAN**2
 
 
 # Change --------------------------------------------------------------------------

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -164,8 +165,9 @@ def test_a_quarter_turn_apart_is_enough():
     assert report.scalar_product == pytest.approx(0, abs=1e-12)
     assert report.grasping
     wider = check_grasp(
-        foot.replace(fingers=tuple(dataclasses.replace(f, orientation=0.7)
-                                   for f in fingers)),
+        foot.replace(
+            fingers=tuple(dataclasses.replace(f, orientation=0.7) for f in fingers)
+        ),
         np.zeros(2),
         Branch(1, (0, 0, -1 / math.cos(0.7))),
     )
@@ -225,9 +227,7 @@ def test_a_foot_of_one_finger_is_never_stable():
 @pytest.mark.parametrize("factor", [1e-3, 3.0, 1e4])
 def test_foot_and_branch_scaled_together_keep_their_verdict(factor):
     foot, controls, branch, report = sample()
-    larger = foot.replace(
-        scale=foot.scale * factor, thickness=foot.thickness * factor
-    )
+    larger = foot.replace(scale=foot.scale * factor, thickness=foot.thickness * factor)
     scaled = Branch(branch.radius * factor, branch.centre * factor, branch.axis)
     other = check_grasp(larger, controls, scaled, criteria=coarse(larger))
     assert_same(report, other, factor)
@@ -255,9 +255,7 @@ def test_foot_and_branch_turned_together_keep_their_verdict(angle):
 def test_the_mirror_image_has_the_same_verdict(name):
     foot, controls, branch, report = sample(name)
     mirror = np.array([1.0, -1.0, 1.0])
-    fingers = tuple(
-        dataclasses.replace(f, azimuth=-f.azimuth) for f in foot.fingers
-    )
+    fingers = tuple(dataclasses.replace(f, azimuth=-f.azimuth) for f in foot.fingers)
     other = check_grasp(
         foot.replace(fingers=fingers),
         controls,
@@ -285,7 +283,7 @@ def test_a_wider_tolerance_never_loses_a_contact():
         check_grasp(foot, controls, branch, criteria=Criteria(tolerance=x * foot.size))
         for x in tolerances
     ]
-    for narrow, wide in zip(reports, reports[1:], strict=False):
+    for narrow, wide in pairwise(reports):
         for mask in ("touching", "tangent", "stable", "grasping", "feasible"):
             assert (getattr(narrow, mask) <= getattr(wide, mask)).all()
         assert (narrow.penetrating >= wide.penetrating).all()
@@ -323,9 +321,7 @@ def test_the_difference_is_the_largest_of_any_clearance():
     moved = report.clearance.copy()
     moved[4] += 0.25
     assert dataclasses.replace(report, clearance=moved).difference(report) == 0.25
-    apart = dataclasses.replace(
-        report, finger_clearance=report.finger_clearance - 0.5
-    )
+    apart = dataclasses.replace(report, finger_clearance=report.finger_clearance - 0.5)
     assert apart.difference(report) == pytest.approx(0.5)
 
 
@@ -433,7 +429,7 @@ def test_the_default_tolerance_is_relative_to_the_foot():
 @pytest.mark.parametrize("value", [0, -1, math.nan, math.inf, "1", True])
 def test_a_bad_tolerance_is_one_line(value):
     with pytest.raises(
-        ParameterError, match="^tolerance = .* is not a positive number: give metres"
+        ParameterError, match=r"^tolerance = .* is not a positive number: give metres"
     ):
         Criteria(tolerance=value)
 

@@ -133,9 +133,7 @@ def test_bones_scale_with_the_foot(posed, factor):
     assert np.abs(bones - expected).max() <= 1e-14 * other.size
 
 
-@given(
-    st.integers(2, 8), reals(1.01, 3), reals(0.05, 6), reals(-1, 1), st.randoms()
-)
+@given(st.integers(2, 8), reals(1.01, 3), reals(0.05, 6), reals(-1, 1), st.randoms())
 def test_beyond_its_first_phalanx_a_finger_is_a_turned_copy_1_over_rho(
     count, rho, omega, orientation, random
 ):
@@ -189,8 +187,9 @@ def test_controls_and_azimuths_broadcast():
 
 def test_azimuths_place_the_fingers():
     foot = PARROT
-    fingers = tuple(dataclasses.replace(f, azimuth=0.1 * i) for i, f in
-                    enumerate(foot.fingers))
+    fingers = tuple(
+        dataclasses.replace(f, azimuth=0.1 * i) for i, f in enumerate(foot.fingers)
+    )
     controls = np.random.default_rng(3).random(14)
     expected = forward_kinematics(foot.replace(fingers=fingers), controls)
     bones = forward_kinematics(foot, controls, azimuths=[0, 0.1, 0.2, 0.1 * 3])

