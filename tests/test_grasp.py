@@ -208,6 +208,16 @@ def test_fingers_that_cross_are_infeasible_bare_or_not():
     assert bare.finger_clearance == pytest.approx(0, abs=1e-12)
 
 
+def test_a_second_phalanx_may_not_cross_a_first():
+    # Down and back at 120°, then straight up through the other toe's first phalanx.
+    fingers = (Finger("a", 2, 0.0), Finger("b", 1, math.pi))
+    foot = Foot(omega=2.7, rho=1.1, fingers=fingers)
+    controls = [math.radians(120) / 2.7, math.radians(150) / 2.7, 0.0]
+    report = check_grasp(foot, controls, Branch(0.1, (0, 0, 5)))
+    assert report.finger_clearance == pytest.approx(0, abs=1e-12)
+    assert not report.feasible
+
+
 def test_a_foot_of_one_finger_is_never_stable():
     foot = Foot(fingers=(Finger("toe", 2, 0.0),))
     for engine in ("exact", "fcl"):
