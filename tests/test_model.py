@@ -153,8 +153,8 @@ def test_it_survives_pickling(owl):
 
 def test_lengths_scale_with_the_foot():
     controls = np.random.default_rng(6).random(14)
-    sizes = {"scale": 2 * PARROT.scale, "thickness": 2 * PARROT.thickness}
-    large = FootModel(PARROT.replace(**sizes)).forward(controls)
+    double = {"scale": 2 * PARROT.scale, "thickness": 2 * PARROT.thickness}
+    large = FootModel(PARROT.replace(**double)).forward(controls)
     small = FootModel(PARROT).forward(controls)
     assert large == pytest.approx(2 * small, abs=1e-15)
 
@@ -184,9 +184,7 @@ def test_a_urdf_on_a_larger_robot_keeps_its_other_joints_neutral():
 
 
 URDF = to_urdf(PARROT)
-FIRST_LIMIT = (
-    f'<limit effort="10.0" lower="0" upper="{PARROT.omega!r}" velocity="20.0"/>'
-)
+FIRST_LIMIT = URDF[URDF.index("<limit ") :].partition(">")[0] + ">"
 
 
 @pytest.mark.parametrize(

@@ -117,13 +117,19 @@ class Branch:
             R_world_branch, shape (…, 3, 3), right-handed.
         """
         reference = np.broadcast_to(np.asarray(reference, float), self.axis.shape)
-        along = np.einsum("...i,...i->...", reference, self.axis)[..., None]
-        flat = reference - along * self.axis
+        flat = self._across(reference)
         weak = np.linalg.norm(flat, axis=-1, keepdims=True) < 1e-6
         spare = np.eye(3)[np.argmin(np.abs(self.axis), axis=-1)]
         first = np.where(weak, np.cross(self.axis, spare), flat)
         first = first / np.linalg.norm(first, axis=-1, keepdims=True)
+        first = self._across(first)  # again: what is left of a near axis is rounded
+        first = first / np.linalg.norm(first, axis=-1, keepdims=True)
         return np.stack([first, np.cross(self.axis, first), self.axis], axis=-1)
+
+    def _across(self, vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The part of vectors that is perpendicular to the axis, shape (…, 3)."""
+        along = np.einsum("...i,...i->...", vectors, self.axis)[..., None]
+        return np.asarray(vectors - along * self.axis)
 
     def broadcast(self, shape: tuple[int, ...]) -> Branch:
         """This branch as a flat batch.
@@ -142,17 +148,21 @@ class Branch:
         )
 
     def __getitem__(self, index: Any) -> Branch:  # noqa: ANN401
-        return self.broadcast(self.batch_shape)._changed(lambda x, _: x[index])
+        shape = self.batch_shape
+        if len(shape) == 1:
+            return self.broadcast(shape)._changed(lambda x, _: x[index])
+        places = np.arange(np.prod(shape, dtype=int)).reshape(shape)[index]
+        return self.broadcast(shape)._changed(lambda x, _: x[places])
 
     def _changed(self, change: Callable[[Any, tuple[int, ...]], Any]) -> Branch:
         """Every field changed alike; entries of a valid batch need no new check."""
         new = object.__new__(Branch)
-        new._set("radius", _read_only(change(np.asarray(self.radius), ())))
+        new._set("radius", _plain(change(np.asarray(self.radius), ())))
         new._set("centre", _read_only(change(self.centre, (3,))))
         new._set("axis", _read_only(change(self.axis, (3,))))
         length = self.length
         if length is not None:
-            length = _read_only(change(np.asarray(length), ()))
+            length = _plain(change(np.asarray(length), ()))
         new._set("length", length)
         return new
 
@@ -176,19 +186,25 @@ def _positive(name: str, value: ArrayLike) -> float | NDArray[np.float64]:
     result = checks.array(name, value)
     remedy = "give metres, such as 0.008 for 8 mm"
     checks.require(name, result, result > 0, "a positive number", remedy)
-    return float(result) if result.ndim == 0 else _read_only(result)
+    return _plain(result)
 
 
 def _unit(axis: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The axis scaled to length 1, exactly itself where it has it already."""
-    norm = np.linalg.norm(axis, axis=-1)
+    """The axis scaled to length 1, whatever its length: squares may overflow."""
+    largest = np.abs(axis).max(axis=-1)
     remedy = "give a direction, such as (0, 1, 0)"
-    checks.require("branch.axis.norm", norm, norm > 0, "positive", remedy)
-    return np.asarray(axis / norm[..., None])
+    checks.require("branch.axis.norm", largest, largest > 0, "positive", remedy)
+    axis = axis / largest[..., None]
+    return np.asarray(axis / np.linalg.norm(axis, axis=-1, keepdims=True))
+
+
+def _plain(values: NDArray[np.float64]) -> float | NDArray[np.float64]:
+    """The array, read-only, or the number where there is only one."""
+    return float(values) if np.ndim(values) == 0 else _read_only(values)
 
 
 def _read_only(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The array, or the number taken out of one, read-only."""
+    """The array, read-only."""
     values.flags.writeable = False
     return values
 

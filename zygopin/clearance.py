@@ -16,6 +16,10 @@ PARALLEL = 1e-12
 """Sine of the angle to the axis below which a bone counts as parallel to it: its
 projection is then a point up to rounding, and any t is as near as another."""
 
+UNTURNED = 1e-16
+"""Squared sine of the angle between two bones below which they count as parallel:
+that of rounding. Their distance is then off by their length times the sine at most."""
+
 BISECTIONS = 60
 """Halvings of [0, 1] that bring t below the spacing of doubles."""
 
@@ -128,7 +132,7 @@ def _nearest_parameters(
     for parallel lines any s serves.
     """
     determinant = uu * vv - uv * uv
-    crossing = determinant > PARALLEL * uu * vv
+    crossing = determinant > UNTURNED * uu * vv
     s = np.divide(uv * vw - uw * vv, determinant, np.zeros_like(uv), where=crossing)
     t = np.clip((uv * np.clip(s, 0, 1) + vw) / vv, 0, 1)
     return np.clip((uv * t - uw) / uu, 0, 1), t

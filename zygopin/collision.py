@@ -216,6 +216,8 @@ def _core(bones: Floats, points: Floats) -> tuple[Floats, Floats]:
 def _direction(offsets: Floats, gaps: Floats, rows: _Rows) -> Floats:
     """Unit vectors from branch to phalanx; across both where they cross."""
     across = np.cross(rows.axis, rows.bone[:, 1] - rows.bone[:, 0])
+    spare = np.cross(rows.axis, np.eye(3)[np.argmin(np.abs(rows.axis), axis=1)])
+    across = np.where((across == 0).all(axis=1)[:, None], spare, across)
     apart = (np.abs(gaps) > COINCIDENT)[:, None]
     vectors = np.where(apart, np.sign(gaps)[:, None] * offsets, across)
     return np.asarray(vectors / np.linalg.norm(vectors, axis=1, keepdims=True))
@@ -235,4 +237,4 @@ def _on_line(t: Floats, offsets: Floats, rows: _Rows) -> Floats:
 
 def _unit(bones: Floats) -> float:
     """The farthest that any junction is from the base: the unit of length."""
-    return float(np.sqrt(dot(bones, bones).max()))
+    return float(np.sqrt(dot(bones, bones).max(initial=0.0))) or 1.0

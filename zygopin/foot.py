@@ -127,7 +127,7 @@ class Foot:
                 remedy=remedy,
             )
             object.__setattr__(self, field, value)
-        fingers = tuple(self.fingers) or zygodactyl_fingers(self.splay)
+        fingers = _listed(self.fingers) or zygodactyl_fingers(self.splay)
         object.__setattr__(self, "fingers", _checked_fingers(fingers))
         _check_thickness(self.thickness, self.scale)
 
@@ -182,9 +182,7 @@ class Foot:
             ParameterError: A value is not allowed.
         """
         values = {key: mapping[key] for key in mapping if key not in _METADATA}
-        fingers = values.pop("fingers", None) or ()
-        if not isinstance(fingers, (list, tuple)):
-            raise ParameterError("fingers", fingers, "a list", "list the fingers")
+        fingers = _listed(values.pop("fingers", None) or ())
         _check_fields(cls, values)
         return cls(**values, fingers=tuple(map(_finger, fingers)))
 
@@ -319,6 +317,13 @@ def _check_thickness(thickness: float, scale: float) -> None:
             f"below the scale {scale:g} m",
             "give a skin's radius smaller than the phalanges are long",
         )
+
+
+def _listed(fingers: object) -> tuple[Any, ...]:
+    """The fingers as a tuple."""
+    if not isinstance(fingers, (list, tuple)):
+        raise ParameterError("fingers", fingers, "a list", "list the fingers")
+    return tuple(fingers)
 
 
 def _checked_fingers(fingers: tuple[Finger, ...]) -> tuple[Finger, ...]:

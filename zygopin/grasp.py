@@ -182,8 +182,9 @@ class GraspReport:
         """
         apart = np.abs(self.clearance - other.clearance)
         both = np.isfinite(self.finger_clearance) & np.isfinite(other.finger_clearance)
-        fingers = np.where(both, self.finger_clearance - other.finger_clearance, 0.0)
-        return float(max(apart.max(), np.abs(fingers).max()))
+        ours, theirs = self.finger_clearance[both], other.finger_clearance[both]
+        fingers = ours - theirs
+        return float(max(apart.max(initial=0.0), np.abs(fingers).max(initial=0.0)))
 
 
 def check_grasp(
@@ -238,13 +239,14 @@ def _report(
     near = engine.branch_clearance(bones, foot.radii, branch)
     contacts = classify(near, tolerance)
     apart = _finger_clearance(foot, bones, engine)
-    apart = np.broadcast_to(apart, near.distance.shape[:-1]).copy()
+    batch = near.distance.shape[:-1]
+    apart = np.broadcast_to(apart, batch)
     return GraspReport(
         foot=foot,
-        controls=controls,
+        controls=np.broadcast_to(controls, (*batch, *controls.shape[-1:])),
         branch=branch,
         tolerance=tolerance,
-        bones=bones,
+        bones=np.broadcast_to(bones, (*batch, *bones.shape[-3:])),
         clearance=near.distance,
         t=near.t,
         point=near.point,

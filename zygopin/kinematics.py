@@ -121,4 +121,7 @@ def _joined(foot: Foot, controls: Mapping[str, Sequence[float]]) -> ArrayLike:
             raise ParameterError(f"controls[{finger.name}]", None, "given", remedy)
         name = f"controls[{finger.name}]"
         parts.append(checks.array(name, controls[finger.name], last=finger.phalanges))
-    return np.concatenate(parts, axis=-1)
+    batch = checks.common_batch("controls", *(part.shape[:-1] for part in parts))
+    return np.concatenate(
+        [np.broadcast_to(part, (*batch, part.shape[-1])) for part in parts], axis=-1
+    )

@@ -36,9 +36,10 @@ ROUNDS = 2
 VERTICAL = 1e-6
 """Squared sine of the slope to the vertical below which a branch has no height."""
 
-PENALTY, GRASP, TOE, TOUCH, CONTACT = 1e6, 1e4, 1e3, 1e2, 1e-1
+PENALTY, GRASP, TOE, TOUCH, CONTACT, NEAR = 1e6, 1e4, 1e3, 1e2, 1e-1, 1e-3
 """Ranks of what a combination is worth: nothing that collides, then a grasp, then
-toes that are tangent, then toes that touch, then radians of wrap, then contacts."""
+toes that are tangent, then toes that touch, then radians of wrap, then contacts,
+then how near a toe comes that does not touch."""
 
 Booleans = NDArray[np.bool_]
 Indices = NDArray[np.intp]
@@ -84,7 +85,8 @@ def plan_perch(
         foot: The foot.
         branch: One branch, of any pose.
         find_height: Also move the branch along z to where it is grasped best.
-        levels: Angles tried at each joint, 2 to 33; the work grows as levels^K.
+        levels: Angles tried at each joint, 2 to 33; the work grows as levels^K, so
+            that fingers of many phalanges get fewer.
 
     Returns:
         The best plan; its `reason` says why where it is no feasible grasp.
@@ -146,11 +148,14 @@ def _best_combination(foot: Foot, poses: list[FingerPoses]) -> tuple[Indices, fl
 def _worth(foot: Foot, poses: FingerPoses) -> Floats:
     """What each pose of a finger is worth by itself, shape (N,)."""
     entering = (poses.clearance < -Criteria().metres(foot)).any(axis=1)
+    touching = poses.touching.any(axis=1)
+    gap = np.where(touching, 0.0, poses.clearance.min(axis=1))
     return np.asarray(
         TOE * poses.tangent.any(axis=1)
-        + TOUCH * poses.touching.any(axis=1)
+        + TOUCH * touching
         + np.where(np.isfinite(poses.wrap), poses.wrap, 0.0)
         + CONTACT * poses.touching.sum(axis=1)
+        - NEAR * gap / (foot.size + gap)
         - PENALTY * entering
     )
 
@@ -162,7 +167,9 @@ def _colliding(foot: Foot, poses: list[FingerPoses], i: int, j: int) -> Booleans
     skin = foot.radii[parts[0]][:, None] + foot.radii[parts[1]]
     apart = segment_distance(one[:, None, :, None], other[None, :, None, :]) - skin
     apart[..., 0, 0] = np.inf
-    return np.asarray(apart.min(axis=(-2, -1)) < 0.0)
+    # Bare bones that cross have no depth, and the verdict asks for a gap.
+    least = 0.0 if foot.thickness > 0 else Criteria().metres(foot)
+    return np.asarray(apart.min(axis=(-2, -1)) < least)
 
 
 def _opposed(one: FingerPoses, other: FingerPoses) -> Booleans:
@@ -214,31 +221,49 @@ def _lowered(branch: Branch, heights: Floats) -> Branch:
 
 def _reason(report: GraspReport) -> str | None:
     """Why a pose is no feasible grasp, in one line; None where it is one."""
-    foot, branch = report.foot, report.branch
+    branch = report.branch
     if report.grasping and report.feasible:
         return None
     if report.penetrating.any():
         return "every pose of some toe enters the branch: move it down or away"
     if report.grasping:
-        return "the toes that grasp run into each other: take a thicker branch"
-    toes = [
-        foot.fingers[i].name for i in np.unique(foot.finger_of_phalanx[report.touching])
-    ]
-    if not toes:
+        return (
+            "the toes that grasp run into each other: take a thicker branch or "
+            "more splay"
+        )
+    if not report.touching.any():
         gap = float(report.clearance.min())
         return (
             f"no toe reaches the branch: the nearest stays {gap:.4g} m away; "
             "move the branch nearer or take a larger foot"
         )
     if not report.stable:
-        return (
-            f"only {', '.join(toes)} can touch the branch, and no toe opposite: "
-            "move the branch under the foot"
-        )
+        return _unstable(report)
     angle = float(np.degrees(np.arccos(np.clip(report.scalar_product, -1, 1))))
     return (
         f"contacts of opposing toes reach {angle:.0f}° around the branch of radius "
         f"{float(branch.radius):.4g} m, a grasp needs 90°: {_better_size(report)}"
+    )
+
+
+def _unstable(report: GraspReport) -> str:
+    """Why toes that touch do not make a stable perch, in one line."""
+    foot = report.foot
+    toes = set(foot.finger_of_phalanx[report.touching].tolist())
+    names = ", ".join(foot.fingers[toe].name for toe in sorted(toes))
+    if any(toes.issuperset(pair) for pair in foot.opposable_pairs):
+        return (
+            f"{names} touch the branch, but opposing toes not along a phalanx: "
+            "move the branch nearer to the base or take a thinner one"
+        )
+    if not foot.opposable_pairs:
+        return (
+            f"{names} can touch the branch, but no two fingers of this foot are "
+            "opposite: give it a finger that points forward and one that points back"
+        )
+    return (
+        f"only {names} can touch the branch, and no toe opposite: "
+        "move the branch under the foot"
     )
 
 

@@ -53,7 +53,7 @@ def read_parameters(path: Path | str) -> dict[str, Any]:
     """
     try:
         text = Path(path).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
+    except (OSError, ValueError) as error:  # not UTF-8, or no path: a null in it
         problem = getattr(error, "strerror", None) or "not a UTF-8 text file"
         raise FileError(path, problem, "name a readable YAML file") from error
     try:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,12 @@ SLACK = 1e-12
 
 CONVERGED = 1e-13
 """Clearance of a contact that has been found, over the foot's size."""
+
+ROUNDING = 8 * np.finfo(float).eps
+"""Rounding of a clearance, over the distances whose difference it is."""
+
+MOST_POSES = 2_000_000
+"""Poses tried at once: about a gigabyte."""
 
 ITERATIONS = 24
 """Steps of the bracketed secant: enough for doubles on a bracket of one grid step."""
@@ -90,7 +97,8 @@ def finger_poses(
         foot: The foot.
         finger: Index of the finger.
         branches: Branches, batch shape (B,).
-        levels: Number of angles tried at each joint.
+        levels: Number of angles tried at each joint; fewer are where `MOST_POSES`
+            would be passed.
         tolerance: Contact tolerance [m].
 
     Returns:
@@ -98,8 +106,9 @@ def finger_poses(
         that every pose enters.
     """
     chain = _Chain.of(foot, finger, branches)
-    grid = np.linspace(0.0, 1.0, levels)
     count = branches.batch_shape[0]
+    most = int((MOST_POSES / max(count, 1)) ** (1 / chain.count))
+    grid = np.linspace(0.0, 1.0, max(2, min(levels, most)))
     partial = _Partial(
         np.arange(count),
         np.empty((count, 0)),
@@ -147,6 +156,12 @@ class _Chain:
         """Number of phalanges."""
         return len(self.lengths)
 
+    @cached_property
+    def rounding(self) -> Floats:
+        """Rounding of a clearance from each branch [m], shape (B,)."""
+        far = np.linalg.norm(self.branches.centre, axis=-1)
+        return np.asarray(ROUNDING * (self.branches.radius + far))
+
     def step(self, pitch: Floats) -> Floats:
         """Unit vectors at given pitches, (…) to (…, 3)."""
         steps = np.cos(pitch)[..., None] * self.forward
@@ -173,7 +188,8 @@ def _grown(chain: _Chain, old: _Partial, rank: int, grid: Floats) -> _Partial:
     clearance = np.stack(
         [_next_clearance(chain, old, rank, np.full(len(old.place), v)) for v in grid], 1
     )
-    outside = np.nonzero(clearance >= -SLACK * chain.size)
+    slack = SLACK * chain.size + chain.rounding[old.place]
+    outside = np.nonzero(clearance >= -slack[:, None])
     row, step = np.nonzero((clearance[:, :-1] > 0) & (clearance[:, 1:] < 0))
     ends = (grid[step], grid[step + 1])
     values = (clearance[row, step], clearance[row, step + 1])
@@ -219,11 +235,12 @@ def _closed(
         Controls of the joint, shape (n,), and which of them have converged.
     """
     result, found = ends[1].copy(), np.zeros(len(ends[0]), dtype=bool)
+    enough = CONVERGED * chain.size + chain.rounding[old.place]
     (a, b), (at_a, at_b), active = ends, values, np.arange(len(ends[0]))
     for _ in range(ITERATIONS):
         new = b - at_b * (b - a) / (at_b - at_a)
         value = _next_clearance(chain, old.take(active), rank, new)
-        done = np.abs(value) <= CONVERGED * chain.size
+        done = np.abs(value) <= enough[active]
         result[active[done]], found[active[done]] = new[done], True
         crossed = np.sign(value) != np.sign(at_b)
         a, at_a = np.where(crossed, b, a), np.where(crossed, at_b, at_a / 2)
@@ -281,9 +298,11 @@ def _varied(chain: _Chain, poses: FingerPoses) -> FingerPoses:
         -np.floor(np.maximum(poses.wrap, 2 * BEHIND) / WRAP_BIN),
         np.floor(tips / (TIP_BIN * chain.size)),
     )
+    gap = np.where(poses.touching.any(axis=1), 0.0, poses.clearance.min(axis=1))
     order = np.lexsort(
         (
             poses.clearance.sum(axis=1),
+            gap,
             -poses.touching.sum(axis=1),
             -poses.tangent.sum(axis=1),
             *bins[::-1],
