@@ -15,6 +15,7 @@ LAYERS = (
     "paths",
     "files",
     "presets",
+    "finger",
     "foot",
     "names",
     "branch",

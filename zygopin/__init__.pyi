@@ -10,9 +10,9 @@ from zygopin.errors import FileError as FileError
 from zygopin.errors import ParameterError as ParameterError
 from zygopin.errors import UnknownNameError as UnknownNameError
 from zygopin.errors import ZygopinError as ZygopinError
-from zygopin.foot import Finger as Finger
+from zygopin.finger import Finger as Finger
+from zygopin.finger import zygodactyl_fingers as zygodactyl_fingers
 from zygopin.foot import Foot as Foot
-from zygopin.foot import zygodactyl_fingers as zygodactyl_fingers
 from zygopin.grasp import Criteria as Criteria
 from zygopin.grasp import GraspReport as GraspReport
 from zygopin.grasp import check_grasp as check_grasp

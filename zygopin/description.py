@@ -23,7 +23,8 @@ import yaml
 from zygopin import names
 from zygopin.errors import DescriptionError
 from zygopin.files import write_text
-from zygopin.foot import Finger, Foot
+from zygopin.finger import Finger
+from zygopin.foot import Foot
 from zygopin.paths import XACRO_PATH
 
 _XACRO = threading.Lock()

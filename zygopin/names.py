@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from zygopin.foot import Finger, Foot
+from zygopin.finger import Finger
+from zygopin.foot import Foot
 
 BASE = "foot"
 """The rigid base link, at the junction that all fingers share."""
