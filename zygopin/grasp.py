@@ -31,7 +31,7 @@ keep a contact, and a parrot's toe is placed to 60 nm."""
 PARAMETER_SLACK = 1e-9
 """Slack on t in [0, 1] and on the sign of the scalar product: rounding."""
 
-BLOCK = 4096
+BLOCK = 1024
 """Configurations worked on at once: intermediate arrays stay in the cache."""
 
 
@@ -173,6 +173,9 @@ class GraspReport:
 
     def difference(self, other: GraspReport) -> float:
         """Largest difference of clearances, the report's check by another engine.
+
+        A phalanx that is inside a finite branch near its end has two depths: that of
+        its deepest point (exact engine) and that of the shortest way out (FCL).
 
         Args:
             other: A report on the same controls and branch.

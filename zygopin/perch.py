@@ -64,6 +64,10 @@ class PerchPlan:
     wrap: Floats
     reason: str | None
 
+    def __post_init__(self) -> None:
+        for values in (self.controls, self.wrap):
+            values.setflags(write=False)
+
     @property
     def grasping(self) -> bool:
         """Whether the plan is a grasp that enters neither branch nor finger."""
@@ -131,6 +135,7 @@ def _best_combination(foot: Foot, poses: list[FingerPoses]) -> tuple[Indices, fl
     combos = np.zeros((1, 0), dtype=np.intp)
     worth, grasps = np.zeros(1), np.zeros(1, dtype=bool)
     for finger, new in enumerate(poses):
+        # Every pair of poses is judged once, in a table; combinations look it up.
         total = worth[:, None] + _worth(foot, new)
         grasping = np.repeat(grasps[:, None], len(new.wrap), axis=1)
         for earlier in range(finger):
