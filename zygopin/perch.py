@@ -36,10 +36,11 @@ ROUNDS = 2
 VERTICAL = 1e-6
 """Squared sine of the slope to the vertical below which a branch has no height."""
 
-PENALTY, GRASP, TOE, TOUCH, CONTACT, NEAR = 1e6, 1e4, 1e3, 1e2, 1e-1, 1e-3
+PENALTY, GRASP, TOE, TOUCH, CONTACT, NEAR = 1e6, 1e4, 1e3, 1e2, 0.3, 1e-3
 """Ranks of what a combination is worth: nothing that collides, then a grasp, then
-toes that are tangent, then toes that touch, then radians of wrap, then contacts,
-then how near a toe comes that does not touch."""
+toes that are tangent, then toes that touch, then wrap, then how near a toe comes
+that does not touch. A tangent phalanx is worth CONTACT radians of wrap: toes conform
+to the branch rather than reach on past it."""
 
 Booleans = NDArray[np.bool_]
 Indices = NDArray[np.intp]
@@ -159,7 +160,7 @@ def _worth(foot: Foot, poses: FingerPoses) -> Floats:
         TOE * poses.tangent.any(axis=1)
         + TOUCH * touching
         + np.where(np.isfinite(poses.wrap), poses.wrap, 0.0)
-        + CONTACT * poses.touching.sum(axis=1)
+        + CONTACT * poses.tangent.sum(axis=1)
         - NEAR * gap / (foot.size + gap)
         - PENALTY * entering
     )
