@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from strategies import reals
 
-from zygopin.branch import Branch, branch_axis
+from zygopin.branch import Branch, branch_axis, yaw_and_pitch
 from zygopin.errors import ParameterError
 
 AXES = hnp.arrays(np.float64, 3, elements=reals(-1, 1)).filter(
@@ -194,3 +194,10 @@ def test_a_branch_moves_with_everything_else_kept():
     assert moved.centre.tolist() == [0, 0, -4]
     assert (moved.radius, moved.length) == (1, 3)
     assert moved.axis == pytest.approx(branch.axis)
+
+
+@pytest.mark.parametrize(("yaw", "pitch"), [(0.0, 0.0), (0.6, 0.3), (-1.2, -0.9)])
+def test_yaw_and_pitch_are_read_back_from_either_direction(yaw, pitch):
+    axis = branch_axis(yaw, pitch)
+    assert yaw_and_pitch(axis) == pytest.approx((yaw, pitch), abs=1e-15)
+    assert yaw_and_pitch(-2 * axis) == pytest.approx((yaw, pitch), abs=1e-15)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from zygopin.branch import Branch, branch_axis
+from zygopin.engine import make_engine
 from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.foot import Finger, Foot
 from zygopin.grasp import (
@@ -19,7 +20,6 @@ from zygopin.grasp import (
     Criteria,
     GraspReport,
     check_grasp,
-    make_engine,
 )
 
 PARROT = Foot.preset("parrot")

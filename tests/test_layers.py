@@ -25,6 +25,7 @@ LAYERS = (
     "model",
     "clearance",
     "collision",
+    "engine",
     "grasp",
     "wrap",
     "perch",

@@ -12,6 +12,7 @@ from importlib.metadata import version as _version
 _HOMES = {
     "branch": ("Branch", "branch_axis"),
     "description": ("to_srdf", "to_urdf", "write_description"),
+    "engine": ("Engine", "make_engine"),
     "errors": (
         "DescriptionError",
         "FileError",
@@ -19,7 +20,7 @@ _HOMES = {
         "UnknownNameError",
         "ZygopinError",
     ),
-    "grasp": ("Criteria", "GraspReport", "check_grasp", "make_engine"),
+    "grasp": ("Criteria", "GraspReport", "check_grasp"),
     "finger": ("Finger", "zygodactyl_fingers"),
     "foot": ("Foot",),
     "kinematics": ("forward_kinematics",),
@@ -40,6 +41,7 @@ __all__ = [
     "Branch",
     "Criteria",
     "DescriptionError",
+    "Engine",
     "FileError",
     "Finger",
     "Foot",

@@ -5,6 +5,8 @@ from zygopin.branch import branch_axis as branch_axis
 from zygopin.description import to_srdf as to_srdf
 from zygopin.description import to_urdf as to_urdf
 from zygopin.description import write_description as write_description
+from zygopin.engine import Engine as Engine
+from zygopin.engine import make_engine as make_engine
 from zygopin.errors import DescriptionError as DescriptionError
 from zygopin.errors import FileError as FileError
 from zygopin.errors import ParameterError as ParameterError
@@ -16,7 +18,6 @@ from zygopin.foot import Foot as Foot
 from zygopin.grasp import Criteria as Criteria
 from zygopin.grasp import GraspReport as GraspReport
 from zygopin.grasp import check_grasp as check_grasp
-from zygopin.grasp import make_engine as make_engine
 from zygopin.kinematics import forward_kinematics as forward_kinematics
 from zygopin.model import FootModel as FootModel
 from zygopin.paths import PACKAGE_PATH as PACKAGE_PATH

@@ -36,6 +36,21 @@ def branch_axis(yaw: float = 0.0, pitch: float = 0.0) -> NDArray[np.float64]:
     return np.array([-math.sin(yaw) * level, math.cos(yaw) * level, math.sin(pitch)])
 
 
+def yaw_and_pitch(axis: ArrayLike) -> tuple[float, float]:
+    """The angles from which `branch_axis` makes an axis, or its opposite.
+
+    Args:
+        axis: Direction, shape (3,).
+
+    Returns:
+        Yaw in [-π/2, π/2] and pitch [rad].
+    """
+    x, y, z = np.asarray(axis, float) / np.linalg.norm(axis)
+    if y < 0:
+        x, y, z = -x, -y, -z
+    return math.atan2(-x, y), math.asin(max(-1.0, min(1.0, z)))
+
+
 @dataclass(frozen=True, eq=False)
 class Branch:
     """A solid cylinder (MODEL.md, section 4), or a batch of them.

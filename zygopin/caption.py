@@ -9,6 +9,7 @@ from html import escape
 
 import numpy as np
 
+from zygopin.branch import yaw_and_pitch
 from zygopin.grasp import GraspReport
 
 SIGNIFICANT = 4
@@ -134,12 +135,12 @@ def branch_rows(report: GraspReport) -> dict[str, str]:
     """
     branch = report.branch
     lengths = _Lengths(report.foot.size)
-    x, y, z = (float(part) for part in branch.axis * (1 if branch.axis[1] >= 0 else -1))
+    yaw, pitch = yaw_and_pitch(branch.axis)
     return {
         "Radius": lengths(float(branch.radius)),
         "Height": lengths(float(branch.centre[2])),
-        "Yaw": _degrees(math.atan2(-x, y)),
-        "Pitch": _degrees(math.asin(max(-1.0, min(1.0, z)))),
+        "Yaw": _degrees(yaw),
+        "Pitch": _degrees(pitch),
         "Length": "infinite"
         if branch.length is None
         else lengths(float(branch.length)),

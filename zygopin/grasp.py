@@ -2,27 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
-from functools import partial
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin import checks, clearance
+from zygopin import checks
 from zygopin.branch import Branch
 from zygopin.clearance import Clearance, Floats
+from zygopin.engine import Engine, EngineName, make_engine
 from zygopin.errors import UnknownNameError
 from zygopin.foot import Foot
-from zygopin.kinematics import Controls, as_controls, forward_kinematics
+from zygopin.kinematics import Controls, as_controls
 
 Reading = Literal["section", "base_to_tip"]
-EngineName = Literal["exact", "fcl"]
 Booleans = NDArray[np.bool_]
 
 READINGS: tuple[Reading, ...] = ("section", "base_to_tip")
-ENGINES: tuple[EngineName, ...] = ("exact", "fcl")
 
 TOLERANCE = 1e-6
 """Contact tolerance over the foot's size: controls written with seven decimals
@@ -63,59 +60,6 @@ class Criteria:
     def metres(self, foot: Foot) -> float:
         """The tolerance for a foot [m]."""
         return TOLERANCE * foot.size if self.tolerance is None else self.tolerance
-
-
-@dataclass(frozen=True)
-class Engine:
-    """One route from controls to distances.
-
-    Attributes:
-        name: `exact` or `fcl`.
-        bones: Controls (…, P) to bones (…, P, 2, 3).
-        branch_clearance: Bones, radii and branch to a `Clearance`.
-        skin_distance: Bones, radii and pairs to distances (…, M).
-    """
-
-    name: str
-    bones: Callable[[Floats], Floats]
-    branch_clearance: Callable[[Floats, Floats, Branch], Clearance]
-    skin_distance: Callable[[Floats, Floats, Any], Floats]
-
-
-def make_engine(name: str, foot: Foot) -> Engine:
-    """An engine for a foot, to be used for any number of checks.
-
-    The two share nothing: `exact` is closed form throughout, `fcl` goes through the
-    URDF, Pinocchio and FCL.
-
-    Args:
-        name: `exact` or `fcl`.
-        foot: The foot.
-
-    Returns:
-        The engine.
-
-    Raises:
-        UnknownNameError: There is no engine of that name.
-    """
-    if name == "exact":
-        return Engine(
-            name,
-            partial(forward_kinematics, foot),
-            clearance.branch_clearance,
-            clearance.skin_distance,
-        )
-    if name != "fcl":
-        raise UnknownNameError("engine", name, ENGINES)
-    from zygopin import collision  # FCL and Pinocchio take a quarter of a second
-    from zygopin.model import FootModel
-
-    return Engine(
-        name,
-        FootModel(foot).forward,
-        collision.branch_clearance,
-        collision.skin_distance,
-    )
 
 
 @dataclass(frozen=True, eq=False)

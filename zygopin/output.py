@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from zygopin.branch import Branch
+from zygopin.branch import Branch, yaw_and_pitch
 from zygopin.grasp import GraspReport
 from zygopin.kinematics import by_finger
 
@@ -76,8 +76,7 @@ def branch_line(branch: Branch) -> str:
     Returns:
         Such as `radius 8 mm, height -14.5 mm, yaw 0°, pitch 0°`.
     """
-    x, y, z = branch.axis if branch.axis[1] >= 0 else -branch.axis
-    yaw, pitch = math.degrees(math.atan2(-x, y)), math.degrees(math.asin(z))
+    yaw, pitch = map(math.degrees, yaw_and_pitch(branch.axis))
     line = (
         f"radius {float(branch.radius) * MILLIMETRES:.6g} mm, "
         f"height {branch.centre[2] * MILLIMETRES:.6g} mm, "

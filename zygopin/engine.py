@@ -1,0 +1,72 @@
+"""The two routes from controls to distances, which share nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import Any, Literal
+
+from zygopin import clearance
+from zygopin.branch import Branch
+from zygopin.clearance import Clearance, Floats
+from zygopin.errors import UnknownNameError
+from zygopin.foot import Foot
+from zygopin.kinematics import forward_kinematics
+
+EngineName = Literal["exact", "fcl"]
+
+ENGINES: tuple[EngineName, ...] = ("exact", "fcl")
+
+
+@dataclass(frozen=True)
+class Engine:
+    """One route from controls to distances.
+
+    Attributes:
+        name: `exact` or `fcl`.
+        bones: Controls (…, P) to bones (…, P, 2, 3).
+        branch_clearance: Bones, radii and branch to a `Clearance`.
+        skin_distance: Bones, radii and pairs to distances (…, M).
+    """
+
+    name: str
+    bones: Callable[[Floats], Floats]
+    branch_clearance: Callable[[Floats, Floats, Branch], Clearance]
+    skin_distance: Callable[[Floats, Floats, Any], Floats]
+
+
+def make_engine(name: str, foot: Foot) -> Engine:
+    """An engine for a foot, to be used for any number of checks.
+
+    The two share nothing: `exact` is closed form throughout, `fcl` goes through the
+    URDF, Pinocchio and FCL.
+
+    Args:
+        name: `exact` or `fcl`.
+        foot: The foot.
+
+    Returns:
+        The engine.
+
+    Raises:
+        UnknownNameError: There is no engine of that name.
+    """
+    if name == "exact":
+        return Engine(
+            name,
+            partial(forward_kinematics, foot),
+            clearance.branch_clearance,
+            clearance.skin_distance,
+        )
+    if name != "fcl":
+        raise UnknownNameError("engine", name, ENGINES)
+    from zygopin import collision  # FCL and Pinocchio take a quarter of a second
+    from zygopin.model import FootModel
+
+    return Engine(
+        name,
+        FootModel(foot).forward,
+        collision.branch_clearance,
+        collision.skin_distance,
+    )
