@@ -143,7 +143,7 @@ def test_the_base_distance_is_the_least_over_the_axis(axis, centre):
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({"radius": 0}, "branch.radius = 0.0 is not a positive number: give metres"),
+        ({"radius": 0}, "branch.radius = 0.0 is not a positive number, from"),
         ({"radius": -1}, "branch.radius = -1.0"),
         ({"radius": [1, math.nan]}, r"branch.radius\[1\] = nan is not finite"),
         ({"radius": "thick"}, "branch.radius = 'thick' is not an array of numbers"),

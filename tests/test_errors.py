@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+
 import pytest
 
 from zygopin.errors import (
@@ -69,3 +71,11 @@ def test_a_long_value_is_cut_and_stays_on_one_line():
     assert len(shown) == 60
     assert shown.endswith("...")
     assert error.value == "x\n" * 500
+
+
+@pytest.mark.parametrize("error", EXAMPLES, ids=lambda e: type(e).__name__)
+def test_errors_cross_process_borders_whole(error):
+    copy = pickle.loads(pickle.dumps(error))  # noqa: S301
+    assert type(copy) is type(error)
+    assert str(copy) == str(error)
+    assert vars(copy) == vars(error)

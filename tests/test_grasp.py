@@ -431,9 +431,35 @@ def test_a_report_keeps_no_hold_on_the_callers_controls():
 def test_the_default_tolerance_is_relative_to_the_foot():
     report = check_grasp(PARROT, np.zeros(14), Branch(1, (0, 0, -2)))
     assert report.tolerance == TOLERANCE * PARROT.size
-    criteria = Criteria(tolerance=0.5)
+    criteria = Criteria(tolerance=1e-4)
     report = check_grasp(PARROT, np.zeros(14), Branch(1, (0, 0, -2)), criteria=criteria)
-    assert report.tolerance == 0.5
+    assert report.tolerance == 1e-4
+
+
+def test_a_tolerance_above_a_tenth_of_the_foot_is_refused():
+    with pytest.raises(ParameterError, match="10% of the foot: a contact is a touch"):
+        Criteria(tolerance=0.5).metres(PARROT)
+
+
+@pytest.mark.parametrize(
+    ("branch", "message"),
+    [
+        (
+            Branch(1e9, (0, 0, -1e9)),
+            "extent of the branch = 2000000000.0 is not",
+        ),
+        (Branch(1e-9, (0, 0, -0.02)), "branch.radius = 1e-09 is not at least"),
+    ],
+)
+def test_a_branch_that_rounding_or_tolerance_would_judge_is_refused(branch, message):
+    with pytest.raises(ParameterError, match=message):
+        check_grasp(PARROT, np.zeros(14), branch)
+
+
+def test_an_engine_of_another_foot_is_refused():
+    engine = make_engine("exact", Foot.preset("owl"))
+    with pytest.raises(ParameterError, match="make the engine for this foot"):
+        check_grasp(PARROT, np.zeros(14), Branch(0.01, (0, 0, -0.02)), engine=engine)
 
 
 @pytest.mark.parametrize("value", [0, -1, math.nan, math.inf, "1", True])

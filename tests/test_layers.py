@@ -27,6 +27,7 @@ LAYERS = (
     "collision",
     "engine",
     "grasp",
+    "reason",
     "wrap",
     "perch",
     "camera",

@@ -138,13 +138,13 @@ def test_the_sense_of_the_axis_does_not_matter():
     assert_true(one)
 
 
-@pytest.mark.parametrize("radius", [1.0, 1e6])
+@pytest.mark.parametrize("radius", [1.0, 1e4])
 def test_a_wall_is_touched_but_not_grasped(radius):
     plan = plan_perch(PARROT, Branch(radius, (0, 0, -2 * radius)), find_height=True)
     assert plan.report.stable
     assert not plan.grasping
     assert "reach 0° around the branch" in plan.reason
-    assert plan.reason.endswith("a grasp needs 90°: take a thinner branch")
+    assert "a grasp needs 90°: take a thinner branch, such as one of" in plan.reason
 
 
 # Finite branches -----------------------------------------------------------------
@@ -187,9 +187,9 @@ def test_a_branch_too_far_off_says_how_far():
     # The longest toe, straight down: finger 4, its first joint closed.
     gap = 1 - 0.008 - SIZE * math.sin(PARROT.omega) - PARROT.radii[-1]
     text = reason(Branch(0.008, (0, 0, -1)))
-    stated = float(re.search(r"the nearest stays (\S+) m away", text).group(1))
+    stated = float(re.search(r"the nearest stays (\S+) mm away", text).group(1)) / 1e3
     assert gap - 1e-4 < stated < gap + 0.1 * SIZE  # toes must keep apart too
-    assert text.endswith("move the branch nearer or take a larger foot")
+    assert text.endswith("move the branch under the foot, nearer to the base")
 
 
 def test_a_branch_above_is_not_reached():
@@ -198,31 +198,31 @@ def test_a_branch_above_is_not_reached():
 
 def test_a_branch_in_front_has_no_toe_opposite():
     text = reason(Branch(0.004, (0.03, 0, -0.007)))
-    assert text.startswith("only finger3 can touch the branch, and no toe opposite: ")
-    assert text.endswith("move the branch under the foot")
+    assert text.startswith("only finger3 touch the branch, and no toe opposite: ")
+    assert text.endswith("move the branch under the foot, nearer to the base")
 
 
 def test_a_branch_behind_has_no_toe_opposite():
     text = reason(Branch(0.004, (-0.035, 0, -0.007)))
-    assert text.startswith("only finger4 can touch the branch, and no toe opposite: ")
+    assert text.startswith("only finger4 touch the branch, and no toe opposite: ")
 
 
 def test_a_branch_in_the_skin_is_entered():
-    assert reason(Branch(0.008, (0, 0, -0.008))) == (
-        "every pose of some toe enters the branch: move it down or away"
-    )
+    text = reason(Branch(0.008, (0, 0, -0.008)))
+    assert text.startswith("finger1, finger2, finger3, finger4 enter the branch, by up")
+    assert text.endswith("move the branch down or away from the base")
 
 
 def test_a_branch_that_opposing_toes_meet_with_their_tips_says_so():
     text = reason(Branch(1.0, (0, 0, -1.0 - 0.08 * SIZE)))
     assert text.startswith("finger1, finger2, finger3, finger4 touch the branch, but")
-    assert "not along a phalanx: move the branch nearer to the base" in text
+    assert "opposite ones not along a phalanx: move the branch under" in text
 
 
 def test_toes_that_cannot_close_ask_for_a_thicker_branch_or_more_omega():
     foot = Foot.preset("paper")
     text = reason(Branch(0.1, UNDER), foot, find_height=True)
-    assert text.endswith("take a thicker branch or a larger ω")
+    assert "take a thicker branch, such as one of" in text
 
 
 def test_toes_in_one_plane_run_into_each_other():
@@ -231,13 +231,14 @@ def test_toes_in_one_plane_run_into_each_other():
     ]
     foot = PARROT.replace(fingers=fingers)
     text = reason(parrots_perch().branch, foot)
-    assert "run into each other: take a thicker branch or more splay" in text
+    assert text.startswith("fingers run into each other, by ")
+    assert text.endswith("take more splay, a thinner skin or another branch")
 
 
 def test_a_foot_without_opposable_fingers_says_so():
     foot = PARROT.replace(fingers=PARROT.fingers[1:3])
     text = reason(parrots_perch().branch, foot)
-    assert text.startswith("finger2, finger3 can touch the branch, but no two fingers")
+    assert text.startswith("finger2, finger3 touch the branch, but no two fingers")
     lone = PARROT.replace(fingers=(Finger("toe", 3, 0.0),))
     assert "no two fingers of this foot are opposite" in reason(
         Branch(0.008, UNDER), lone, find_height=True

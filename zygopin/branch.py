@@ -13,6 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from zygopin import checks
 
+SMALLEST, LARGEST = 1e-12, 1e12
+"""Lengths that a branch may have [m]: their squares neither vanish nor overflow."""
+
 BASE_SLACK = 1e-9
 """How far the base may lie inside, relative to the radius: rounding of a base that
 sits on the bark."""
@@ -80,6 +83,9 @@ class Branch:
         length: ArrayLike | None = None,
     ) -> None:
         centre = checks.array("branch.centre", centre, last=3)
+        near = np.abs(centre) <= LARGEST
+        remedy = "give metres, in the foot's frame"
+        checks.require("branch.centre", centre, near, f"within {LARGEST:g} m", remedy)
         self._set("radius", _positive("branch.radius", radius))
         self._set("centre", _read_only(centre))
         self._set("axis", _read_only(_unit(checks.array("branch.axis", axis, last=3))))
@@ -200,7 +206,9 @@ def _positive(name: str, value: ArrayLike) -> float | NDArray[np.float64]:
     """A positive float, or a read-only array of them."""
     result = checks.array(name, value)
     remedy = "give metres, such as 0.008 for 8 mm"
-    checks.require(name, result, result > 0, "a positive number", remedy)
+    good = (result >= SMALLEST) & (result <= LARGEST)
+    allowed = f"a positive number, from {SMALLEST:g} to {LARGEST:g} m"
+    checks.require(name, result, good, allowed, remedy)
     return _plain(result)
 
 

@@ -89,11 +89,14 @@ def array(name: str, value: ArrayLike, *, last: int | None = None) -> NDArray[An
     Raises:
         ParameterError: Not numbers, not finite, or of the wrong shape.
     """
+    allowed, remedy = "an array of numbers", "give numbers, in a sequence or an array"
     try:
-        result = np.array(value, dtype=float)
+        given = np.asarray(value)
+        result = np.array(given, dtype=float)
     except (TypeError, ValueError, OverflowError) as error:
-        remedy = "give numbers, in a sequence or an array"
-        raise ParameterError(name, value, "an array of numbers", remedy) from error
+        raise ParameterError(name, value, allowed, remedy) from error
+    if given.dtype.kind not in "iuf":  # text, truth values, dates, complex numbers
+        raise ParameterError(name, value, allowed, remedy)
     if last is not None and (result.ndim == 0 or result.shape[-1] != last):
         allowed = f"of shape (…, {last})"
         remedy = f"give {last} numbers along the last axis"

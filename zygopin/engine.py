@@ -25,12 +25,14 @@ class Engine:
 
     Attributes:
         name: `exact` or `fcl`.
+        foot: The foot it is for.
         bones: Controls (…, P) to bones (…, P, 2, 3).
         branch_clearance: Bones, radii and branch to a `Clearance`.
         skin_distance: Bones, radii and pairs to distances (…, M).
     """
 
     name: str
+    foot: Foot
     bones: Callable[[Floats], Floats]
     branch_clearance: Callable[[Floats, Floats, Branch], Clearance]
     skin_distance: Callable[[Floats, Floats, Any], Floats]
@@ -55,6 +57,7 @@ def make_engine(name: str, foot: Foot) -> Engine:
     if name == "exact":
         return Engine(
             name,
+            foot,
             partial(forward_kinematics, foot),
             clearance.branch_clearance,
             clearance.skin_distance,
@@ -66,6 +69,7 @@ def make_engine(name: str, foot: Foot) -> Engine:
 
     return Engine(
         name,
+        foot,
         FootModel(foot).forward,
         collision.branch_clearance,
         collision.skin_distance,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from difflib import get_close_matches
 from pathlib import Path
+from typing import Any
 
 
 class ZygopinError(Exception):
@@ -15,6 +16,20 @@ class ZygopinError(Exception):
     """
 
     exit_code = 2
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # The constructors compose a message; a copy, as from a worker process, has it.
+        return _restored, (type(self), self.args, self.__dict__)
+
+
+def _restored(
+    kind: type[ZygopinError], args: tuple[Any, ...], values: dict[str, Any]
+) -> ZygopinError:
+    """An error as it was when it was pickled."""
+    error = kind.__new__(kind)
+    error.args = args
+    error.__dict__.update(values)
+    return error
 
 
 class ParameterError(ZygopinError, ValueError):

@@ -122,7 +122,10 @@ class Foot:
             ParameterError: A value is not allowed.
         """
         values = {key: mapping[key] for key in mapping if key not in _METADATA}
-        fingers = _listed(values.pop("fingers", None) or ())
+        fingers = _listed(values.pop("fingers", ()))
+        if "fingers" in mapping and not fingers:
+            remedy = "list the fingers, or leave the field out for the zygodactyl four"
+            raise ParameterError("fingers", mapping["fingers"], "a filled list", remedy)
         _check_fields(cls, values)
         return cls(**values, fingers=tuple(map(_finger, fingers)))
 

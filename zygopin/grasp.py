@@ -12,7 +12,7 @@ from zygopin import checks
 from zygopin.branch import Branch
 from zygopin.clearance import Clearance, Floats
 from zygopin.engine import Engine, EngineName, make_engine
-from zygopin.errors import UnknownNameError
+from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.foot import Foot
 from zygopin.kinematics import Controls, as_controls
 
@@ -24,6 +24,13 @@ READINGS: tuple[Reading, ...] = ("section", "base_to_tip")
 TOLERANCE = 1e-6
 """Contact tolerance over the foot's size: controls written with seven decimals
 keep a contact, and a parrot's toe is placed to 60 nm."""
+
+LARGEST_TOLERANCE = 0.1
+"""Contact tolerance, over the foot's size, above which a touch means nothing."""
+
+FARTHEST, THINNEST = 1e6, 1e-6
+"""A branch's extent and least radius over the foot's size: beyond, rounding or the
+tolerance decides instead of the geometry."""
 
 PARAMETER_SLACK = 1e-9
 """Slack on t in [0, 1] and on the sign of the scalar product: rounding."""
@@ -58,8 +65,19 @@ class Criteria:
             )
 
     def metres(self, foot: Foot) -> float:
-        """The tolerance for a foot [m]."""
-        return TOLERANCE * foot.size if self.tolerance is None else self.tolerance
+        """The tolerance for a foot [m].
+
+        Raises:
+            ParameterError: It is more than `LARGEST_TOLERANCE` of the foot's size.
+        """
+        if self.tolerance is None:
+            return TOLERANCE * foot.size
+        most = LARGEST_TOLERANCE * foot.size
+        if self.tolerance > most:
+            allowed = f"at most {most:.3g} m, {LARGEST_TOLERANCE:.0%} of the foot"
+            remedy = "a contact is a touch: give less"
+            raise ParameterError("tolerance", self.tolerance, allowed, remedy)
+        return self.tolerance
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,6 +179,10 @@ def check_grasp(
     values = as_controls(foot, controls)
     criteria = criteria or Criteria()
     made = make_engine(engine, foot) if isinstance(engine, str) else engine
+    if made.foot != foot:
+        remedy = "make the engine for this foot"
+        raise ParameterError("engine.foot", made.foot.name, "the foot", remedy)
+    check_size(foot, branch)
     shapes = values.shape[:-1], branch.batch_shape
     batch = checks.common_batch("controls and branch", *shapes)
     count = int(np.prod(batch, dtype=int))
@@ -175,6 +197,25 @@ def check_grasp(
         local = branches[block] if branches is not None else branch
         parts.append(_report(foot, flat[block], local, made, criteria))
     return _joined(parts, branch, batch)
+
+
+def check_size(foot: Foot, branch: Branch) -> None:
+    """A branch is of a size and at a place that mean something to a foot.
+
+    Args:
+        foot: The foot.
+        branch: The branch, or a batch.
+
+    Raises:
+        ParameterError: It is beyond `FARTHEST` or thinner than `THINNEST`.
+    """
+    radius = np.asarray(branch.radius)
+    far, thin = FARTHEST * foot.size, THINNEST * foot.size
+    extent = radius + np.linalg.norm(branch.centre, axis=-1)
+    most, least = f"at most {far:.3g} m for this foot", f"at least {thin:.3g} m for it"
+    name, remedy = "extent of the branch", "move it nearer, or take a thinner one"
+    checks.require(name, extent, extent <= far, most, remedy)
+    checks.require("branch.radius", radius, radius >= thin, least, "take a thicker one")
 
 
 def _report(

@@ -187,6 +187,8 @@ def make_branch(
     try:
         return Branch(radius, (0.0, 0.0, height), branch_axis(yaw, pitch), length)
     except ParameterError as error:
+        if not error.name.startswith("distance of the base"):
+            raise
         level = abs(math.cos(pitch))
         if level < STEEP:
             message = f"--pitch-deg = {math.degrees(pitch):.6g} is too steep: try 30."

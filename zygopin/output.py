@@ -11,9 +11,7 @@ from numpy.typing import ArrayLike
 from zygopin.branch import Branch, yaw_and_pitch
 from zygopin.grasp import GraspReport
 from zygopin.kinematics import by_finger
-
-MILLIMETRES = 1e3
-"""Millimetres in a metre: terminals and captions show lengths of toes in them."""
+from zygopin.reason import MILLIMETRES
 
 
 def report_document(

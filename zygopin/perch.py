@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +13,14 @@ from zygopin.branch import Branch
 from zygopin.clearance import Floats, segment_distance
 from zygopin.errors import ParameterError
 from zygopin.foot import Foot
-from zygopin.grasp import PARAMETER_SLACK, Criteria, GraspReport, check_grasp
+from zygopin.grasp import (
+    PARAMETER_SLACK,
+    Criteria,
+    GraspReport,
+    check_grasp,
+    check_size,
+)
+from zygopin.reason import MILLIMETRES, why_not
 from zygopin.wrap import FingerPoses, finger_poses
 
 LEVELS = 7
@@ -42,6 +50,13 @@ toes that are tangent, then toes that touch, then wrap, then how near a toe come
 that does not touch. A tangent phalanx is worth CONTACT radians of wrap: toes conform
 to the branch rather than reach on past it."""
 
+TRIED_RADII = (0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.9, 1.3)
+"""Radii over the foot's size that are tried where the given one cannot be grasped,
+the nearest first."""
+
+BELOW = np.array([0.0, 0.0, -50.0])
+"""A place for a branch whose height is still to be found, over the foot's size."""
+
 Booleans = NDArray[np.bool_]
 Indices = NDArray[np.intp]
 
@@ -66,8 +81,7 @@ class PerchPlan:
     reason: str | None
 
     def __post_init__(self) -> None:
-        for values in (self.controls, self.wrap):
-            values.setflags(write=False)
+        self.wrap.setflags(write=False)
 
     @property
     def grasping(self) -> bool:
@@ -104,21 +118,23 @@ def plan_perch(
         remedy = "plan for one branch at a time"
         raise ParameterError("branch batch", branch.batch_shape, "()", remedy)
     levels = checks.integer("levels", levels, 2, 33)
+    check_size(foot, branch)
     if find_height:
         branch = _best_height(foot, branch)
-    return _planned(foot, branch, levels)
+    report, wrap = _planned(foot, branch, levels)
+    reason = _reason(report, searched=find_height)
+    return PerchPlan(report.controls, branch, report, wrap, reason)
 
 
-def _planned(foot: Foot, branch: Branch, levels: int) -> PerchPlan:
-    """The plan for a branch in its place."""
+def _planned(foot: Foot, branch: Branch, levels: int) -> tuple[GraspReport, Floats]:
+    """Verdicts on the best pose for a branch in its place, and its wrap."""
     poses = _all_poses(foot, branch.broadcast((1,)), levels)
     chosen, _ = _best_combination(foot, poses)
     controls = np.concatenate(
         [p.controls[i] for p, i in zip(poses, chosen, strict=True)]
     )
     wrap = np.array([p.wrap[i] for p, i in zip(poses, chosen, strict=True)])
-    report = check_grasp(foot, controls, branch)
-    return PerchPlan(controls, branch, report, wrap, _reason(report))
+    return check_grasp(foot, controls, branch), wrap
 
 
 def _all_poses(foot: Foot, branches: Branch, levels: int) -> list[FingerPoses]:
@@ -225,59 +241,38 @@ def _lowered(branch: Branch, heights: Floats) -> Branch:
     return branch.moved_to(np.concatenate([level, heights[..., None]], axis=-1))
 
 
-def _reason(report: GraspReport) -> str | None:
-    """Why a pose is no feasible grasp, in one line; None where it is one."""
-    branch = report.branch
-    if report.grasping and report.feasible:
+def _reason(report: GraspReport, *, searched: bool) -> str | None:
+    """Why a plan is no feasible grasp and what would help, in one line."""
+    fact = why_not(report)
+    if fact is None:
         return None
+    return f"{fact}: {_advice(report, searched=searched)}"
+
+
+def _advice(report: GraspReport, *, searched: bool) -> str:
+    """What would help, for each of the reasons and in their order."""
     if report.penetrating.any():
-        return "every pose of some toe enters the branch: move it down or away"
-    if report.grasping:
-        return (
-            "the toes that grasp run into each other: take a thicker branch or "
-            "more splay"
-        )
+        return "move the branch down or away from the base"
+    if not report.feasible:
+        return "take more splay, a thinner skin or another branch"
+    if not report.foot.opposable_pairs:
+        return "give the foot a finger that points forward and one that points back"
+    if not report.stable and not searched:
+        return "move the branch under the foot, nearer to the base"
     if not report.touching.any():
-        gap = float(report.clearance.min())
-        return (
-            f"no toe reaches the branch: the nearest stays {gap:.4g} m away; "
-            "move the branch nearer or take a larger foot"
-        )
-    if not report.stable:
-        return _unstable(report)
-    angle = float(np.degrees(np.arccos(np.clip(report.scalar_product, -1, 1))))
-    return (
-        f"contacts of opposing toes reach {angle:.0f}° around the branch of radius "
-        f"{float(branch.radius):.4g} m, a grasp needs 90°: {_better_size(report)}"
-    )
+        return "take a larger foot, or a longer or less steep branch"
+    return _better_branch(report)
 
 
-def _unstable(report: GraspReport) -> str:
-    """Why toes that touch do not make a stable perch, in one line."""
-    foot = report.foot
-    toes = set(foot.finger_of_phalanx[report.touching].tolist())
-    names = ", ".join(foot.fingers[toe].name for toe in sorted(toes))
-    if any(toes.issuperset(pair) for pair in foot.opposable_pairs):
-        return (
-            f"{names} touch the branch, but opposing toes not along a phalanx: "
-            "move the branch nearer to the base or take a thinner one"
-        )
-    if not foot.opposable_pairs:
-        return (
-            f"{names} can touch the branch, but no two fingers of this foot are "
-            "opposite: give it a finger that points forward and one that points back"
-        )
-    return (
-        f"only {names} can touch the branch, and no toe opposite: "
-        "move the branch under the foot"
-    )
-
-
-def _better_size(report: GraspReport) -> str:
-    """What would help toes that touch all along but do not reach around."""
-    foot = report.foot
-    ends = [part.stop - 1 for part in foot.finger_slices.values()]
-    # Toes that lie on the branch to their tips are too short; others cannot close.
-    if report.touching[ends].any() or float(report.branch.radius) > foot.size / 2:
-        return "take a thinner branch"
-    return "take a thicker branch or a larger ω"
+def _better_branch(report: GraspReport) -> str:
+    """A radius that the foot can grasp in the branch's direction, by trying some."""
+    foot, radius = report.foot, float(report.branch.radius)
+    tried = sorted(TRIED_RADII, key=lambda x: abs(math.log(x * foot.size / radius)))
+    for share in tried:
+        branch = Branch(share * foot.size, BELOW * foot.size, report.branch.axis)
+        found, _ = _planned(foot, _best_height(foot, branch), COARSE_LEVELS)
+        if found.feasible and found.grasping:
+            kind = "thinner" if share * foot.size < radius else "thicker"
+            example = share * foot.size * MILLIMETRES
+            return f"take a {kind} branch, such as one of radius {example:.3g} mm"
+    return "take a branch across the foot, or a foot whose joints close further"
