@@ -58,3 +58,17 @@ def test_links_lead_to_files():
 def test_presets_of_the_table_are_those_that_exist():
     listed = set(re.findall(r"^\| `([a-z-]+)` \|", README, re.MULTILINE))
     assert listed == {path.stem for path in (ROOT / "urdf/presets").glob("*.yaml")}
+
+
+def test_the_foot_file_of_the_readme_grasps(tmp_path):
+    (text,) = re.findall(r"```yaml\n(.*?)```", README, re.DOTALL)
+    file = tmp_path / "foot.yaml"
+    file.write_text(text)
+    command = ["perch", "--foot", str(file), "--radius-mm", "12"]
+    result = subprocess.run(
+        [sys.executable, "-m", "zygopin", *command],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert result.returncode == 0, result.stderr
