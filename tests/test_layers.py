@@ -14,6 +14,7 @@ LAYERS = (
     "checks",
     "paths",
     "files",
+    "hausdorff",
     "presets",
     "foot",
     "names",
@@ -36,6 +37,7 @@ LAYERS = (
     "scene",
     "output",
     "options",
+    "terminal",
     "cli",
     "__main__",
 )
