@@ -12,6 +12,8 @@ PACKAGE = Path(zygopin.__file__).parent
 LAYERS = (
     "errors",
     "checks",
+    "control_system",
+    "ifs",
     "paths",
     "files",
     "hausdorff",
