@@ -44,9 +44,13 @@ LAYERS = (
     "drawing",
     "caption",
     "scene",
+    "reach_scene",
+    "plots",
     "output",
+    "reach_output",
     "options",
     "terminal",
+    "cli_reach",
     "cli",
     "__main__",
 )
