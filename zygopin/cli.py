@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from zygopin.cli_reach import reach, validate
 from zygopin.options import (
     MM,
     POSITIVE_MM,
@@ -40,6 +41,10 @@ def main() -> None:
     Lengths are in millimetres and angles in degrees, as each option's name says;
     x points forward, y left, z up, and the base of the foot is the origin.
     """
+
+
+main.add_command(reach)
+main.add_command(validate)
 
 
 @main.command()

@@ -1,4 +1,4 @@
-"""Writing files whole or not at all."""
+"""Reading files, and writing them whole or not at all."""
 
 from __future__ import annotations
 
@@ -7,6 +7,26 @@ from collections.abc import Callable
 from pathlib import Path
 
 from zygopin.errors import FileError
+
+
+def read_text(path: Path | str) -> str:
+    """Read a text file.
+
+    Args:
+        path: The file, in UTF-8.
+
+    Returns:
+        What it holds.
+
+    Raises:
+        FileError: It cannot be read, or is not UTF-8.
+    """
+    try:
+        return Path(path).read_text(encoding="utf-8")
+    except (OSError, ValueError) as error:
+        problem = getattr(error, "strerror", None) or str(error)
+        remedy = "name a text file that can be read"
+        raise FileError(path, f"cannot be read: {problem}", remedy) from error
 
 
 def write_text(path: Path | str, text: str) -> Path:
