@@ -55,11 +55,21 @@ MAX_PIXELS = 2**14
 MAX_CELLS = 2**29
 """Most cells in a grid: half a gigabyte."""
 
+DIAGONAL = math.sqrt(2) * (1 + 1e-6)
+"""Diagonal of a cell, and a little for rounding [cells]."""
+
+BLOCK = 2**15
+"""Pixels that are decided at once."""
+
 CHUNK = 2**16
 """Points pulled back at once."""
 
 _NO, _MAYBE, _YES = np.arange(3, dtype=np.uint8)
 """Whether a set comes near a point."""
+
+
+_Judge = Callable[[NDArray[np.complex128]], NDArray[np.uint8]]
+"""Whether a set comes near each of some points."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +96,10 @@ class Raster:
         """Centres x + iz of the marked pixels, shape (m,)."""
         row, column = np.nonzero(self.image)
         corner = complex(self.extent[0], self.extent[2])
-        return corner + self.pixel * ((column + 0.5) + 1j * (row + 0.5))
+        centres: NDArray[np.complex128] = (column + 0.5) + 1j * (row + 0.5)
+        centres *= self.pixel
+        centres += corner
+        return centres
 
 
 def raster(
@@ -136,12 +149,20 @@ class _Grid:
     size: float
     shape: tuple[int, int]
 
-    def index(self, points: NDArray[np.complex128]) -> NDArray[np.int64]:
-        """Flat index of the cell of each point, which must lie in the grid."""
-        row = ((points.imag - self.corner.imag) / self.size).astype(np.int64)
-        row *= self.shape[1]
-        row += ((points.real - self.corner.real) / self.size).astype(np.int64)
-        return row
+    def places(
+        self, base: NDArray[np.complex128], factor: complex
+    ) -> NDArray[np.complex128]:
+        """Points factor·base in units of the grid: column + i·row."""
+        place: NDArray[np.complex128] = base * (factor / self.size)
+        place -= self.corner / self.size
+        return place
+
+    def index(self, place: NDArray[np.complex128]) -> NDArray[np.intp]:
+        """Flat index of the cell at each place, which must lie in the grid."""
+        cell = place.imag.astype(np.intp)
+        cell *= self.shape[1]
+        cell += place.real.astype(np.intp)
+        return cell
 
 
 @dataclass(frozen=True)
@@ -201,11 +222,12 @@ def _thinned(
     kept = np.empty(grid.shape[0] * grid.shape[1], np.complex128)
     marked = np.zeros(kept.shape, bool)
     for factor in factors:
-        image = factor * base
-        place = grid.index(image)
-        kept[place] = image
-        marked[place] = True
-    return _Generation(grid, marked.reshape(grid.shape), kept[marked], spread)
+        place = grid.places(base, factor)
+        cells = grid.index(place)
+        kept[cells] = place
+        marked[cells] = True
+    points = kept[marked] * cell + grid.corner
+    return _Generation(grid, marked.reshape(grid.shape), points, spread)
 
 
 def _drawn(
@@ -217,29 +239,42 @@ def _drawn(
     """All images of some points, marked in a window that holds them."""
     marked = np.zeros(window.shape[0] * window.shape[1], bool)
     for factor in factors:
-        marked[window.index(factor * base)] = True
+        marked[window.index(window.places(base, factor))] = True
     return _Generation(window, marked.reshape(window.shape), base[:0], spread)
 
 
 def _around(
     base: NDArray[np.complex128], factors: NDArray[np.complex128], cell: float
 ) -> _Grid:
-    """A grid around all images of some points."""
-    turned = [(factor * base) for factor in factors]
-    low = complex(
-        min(image.real.min() for image in turned),
-        min(image.imag.min() for image in turned),
-    )
-    high = complex(
-        max(image.real.max() for image in turned),
-        max(image.imag.max() for image in turned),
-    )
+    """A grid around all images of some points, two cells wider than need be."""
+    corners, slack = _outline(base)
+    images: NDArray[np.complex128] = np.multiply.outer(factors, corners)
+    slack = slack * float(np.abs(factors).max()) + 2 * cell
+    low = complex(images.real.min() - slack, images.imag.min() - slack)
+    high = complex(images.real.max() + slack, images.imag.max() + slack)
     span = (high - low) / cell
-    shape = (int(span.imag) + 3, int(span.real) + 3)
+    shape = (math.ceil(span.imag), math.ceil(span.real))
     if shape[0] * shape[1] > MAX_CELLS:
-        name, remedy = "cells of the grid", "take fewer pixels"
-        raise ParameterError(name, shape[0] * shape[1], f"at most {MAX_CELLS}", remedy)
-    return _Grid(low - cell * (1 + 1j), cell, shape)
+        remedy = "take fewer pixels"
+        cells = shape[0] * shape[1]
+        raise ParameterError("cells of the grid", cells, f"at most {MAX_CELLS}", remedy)
+    return _Grid(low, cell, shape)
+
+
+def _outline(
+    points: NDArray[np.complex128],
+) -> tuple[NDArray[np.complex128], float]:
+    """A few points, and how far any of the given ones may be from them."""
+    if len(points) <= OUTLINE:
+        return points, 0.0
+    low = complex(points.real.min(), points.imag.min())
+    span = max(np.ptp(points.real), np.ptp(points.imag))
+    grid = _Grid(low, span / OUTLINE * (1 + 1e-9), (OUTLINE, OUTLINE))
+    marked = np.zeros(OUTLINE**2, bool)
+    marked[grid.index(grid.places(points, 1.0))] = True
+    row, column = np.divmod(np.flatnonzero(marked), OUTLINE)
+    centres: NDArray[np.complex128] = (column + 0.5) + 1j * (row + 0.5)
+    return low + grid.size * centres, grid.size
 
 
 def _resolved(
@@ -247,29 +282,49 @@ def _resolved(
 ) -> NDArray[np.bool_]:
     """The last generation's pixels, with those in question decided."""
     last = generations[-1]
-    image = last.marked.copy()
-    reach = math.floor(last.spread / last.grid.size) + 1
-    row, column = np.nonzero(_dilated(image, reach) & ~image)
-    centre = last.grid.size * ((column + 0.5) + 1j * (row + 0.5))
-    points = (last.grid.corner + centre) / system.turn
-    owner = np.arange(len(points))
+    image: NDArray[np.bool_] = last.marked.copy()
+    reach = last.spread / last.grid.size + 1
+    row, column = np.nonzero((_distance(image) < reach + 1) & ~image)
+    points: NDArray[np.complex128] = (column + 0.5) + 1j * (row + 0.5)
+    points = (last.grid.corner + last.grid.size * points) / system.turn
     met = np.zeros(len(points), bool)
-    allowance = last.grid.size
-    for generation in reversed(generations[:-1]):
-        allowance *= system.rho
-        points, owner = _pulled(system, points, owner, generation, allowance, met)
-        keep = ~met[owner]
-        points, owner = points[keep], owner[keep]
+    judges: list[_Judge] = []
+    for start in range(0, len(points), BLOCK):
+        block = slice(start, start + BLOCK)
+        met[block] = _answers(system, points[block], generations, judges)
     image[row[met], column[met]] = True
     return image
+
+
+def _answers(
+    system: ControlSystem,
+    points: NDArray[np.complex128],
+    generations: list[_Generation],
+    judges: list[_Judge],
+) -> NDArray[np.bool_]:
+    """Whether the last generation comes near some pixels' centres, shape (m,).
+
+    `judges` holds those of the generations met so far, from the last but one down.
+    """
+    owner = np.arange(len(points))
+    met = np.zeros(len(points), bool)
+    for back, generation in enumerate(generations[-2::-1], start=1):
+        if not len(points):
+            break
+        if len(judges) < back:
+            allowance = generations[-1].grid.size * system.rho**back
+            judges.append(_judge(generation, allowance))
+        points, owner = _pulled(system, points, owner, judges[back - 1], met)
+        keep = ~met[owner]
+        points, owner = points[keep], owner[keep]
+    return met
 
 
 def _pulled(
     system: ControlSystem,
     points: NDArray[np.complex128],
     owner: NDArray[np.int64],
-    generation: _Generation,
-    allowance: float,
+    judge: _Judge,
     met: NDArray[np.bool_],
 ) -> tuple[NDArray[np.complex128], NDArray[np.int64]]:
     """Pull points back by every f_v, and keep those that stay in question.
@@ -277,7 +332,6 @@ def _pulled(
     Pixels whose question is answered by yes are noted in `met`.
     """
     factors = system.factors
-    judge = _judge(generation, allowance)
     size = max(CHUNK // len(factors), 1)
     kept_points, kept_owners = [points[:0]], [owner[:0]]
     for start in range(0, len(points), size):
@@ -291,10 +345,10 @@ def _pulled(
     return np.concatenate(kept_points), np.concatenate(kept_owners)
 
 
-def _judge(
-    generation: _Generation, allowance: float
-) -> Callable[[NDArray[np.complex128]], NDArray[np.uint8]]:
+def _judge(generation: _Generation, allowance: float) -> _Judge:
     """Whether R_g comes near points: `_YES`, `_NO` or `_MAYBE` for each.
+
+    Cells' distances are between centres, so points may be a diagonal nearer or farther.
 
     Args:
         generation: What is known of R_g.
@@ -305,17 +359,16 @@ def _judge(
         certain beyond `HALF_DIAGONAL` of them.
     """
     grid = generation.grid
+    near, far = ACCEPT * allowance, HALF_DIAGONAL * allowance + generation.spread
     if len(generation.points) == 1 and generation.spread == 0:
-        only, near = generation.points[0], ACCEPT * allowance
+        only = generation.points[0]
         return lambda points: np.where(np.abs(points - only) <= near, _YES, _NO)
-    sure = math.floor(ACCEPT * allowance / (math.sqrt(2) * grid.size)) - 1
-    reach = (generation.spread + HALF_DIAGONAL * allowance) / grid.size
-    reach = min(math.floor(reach) + 1, sum(grid.shape))
-    padded = np.pad(generation.marked, reach)
-    table = np.where(_dilated(padded, reach), _MAYBE, _NO)
-    if sure >= 0:
-        table[_dilated(padded, min(sure, sum(grid.shape)))] = _YES
-    corner = grid.corner - reach * grid.size * (1 + 1j)
+    reach = far / grid.size + DIAGONAL
+    border = math.ceil(reach) + 1
+    distance = _distance(np.pad(generation.marked, border))
+    table = np.where(distance <= reach, _MAYBE, _NO)
+    table[distance <= near / grid.size - DIAGONAL] = _YES
+    corner = grid.corner - border * grid.size * (1 + 1j)
     wide = _Grid(corner, grid.size, (table.shape[0], table.shape[1]))
     return lambda points: _looked_up(table, wide, points)
 
@@ -335,15 +388,9 @@ def _looked_up(
     return found
 
 
-def _dilated(marked: NDArray[np.bool_], reach: int) -> NDArray[np.bool_]:
-    """Cells within some rows and columns of a marked one."""
-    result = marked.copy()
-    for lines in (result, result.T):
-        done = 0
-        while done < reach:
-            shift = min(2 * done + 1, reach - done)
-            old = lines.copy()
-            lines[shift:] |= old[:-shift]
-            lines[:-shift] |= old[shift:]
-            done += shift
-    return result
+def _distance(marked: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Distance of each cell's centre from that of the next marked one [cells]."""
+    from scipy.ndimage import distance_transform_edt
+
+    distance: NDArray[np.float64] = distance_transform_edt(~marked)
+    return distance
