@@ -1,4 +1,4 @@
-"""The commands `reach` and `validate`, run as users run them."""
+"""The commands `reach` and `validate`: output, files, exit status, one-line errors."""
 
 from __future__ import annotations
 
@@ -8,16 +8,32 @@ import sys
 
 import numpy as np
 import pytest
-from test_cli import run
+from test_cli import run as run_alone
 
 from zygopin import Foot, forward_kinematics, to_urdf
+from zygopin.cli import main
 
 FIGURE = ("reach", "--preset", "paper", "--finger", "3", "--omega-deg", "15,30")
 SMALL = (*FIGURE, "--levels", "5")
 
 
+@pytest.fixture
+def run(capsys, monkeypatch):
+    """Run the command line in this process, which has loaded the libraries."""
+    monkeypatch.setenv("COLUMNS", "80")
+
+    def run_here(*arguments):
+        with pytest.raises(SystemExit) as ended:
+            main(list(arguments))
+        spoken = capsys.readouterr()
+        status = int(ended.value.code)
+        return subprocess.CompletedProcess(arguments, status, spoken.out, spoken.err)
+
+    return run_here
+
+
 def test_validate_passes_and_says_what_it_took():
-    result = run("validate", "--preset", "paper")
+    result = run_alone("validate", "--preset", "paper")
     assert result.returncode == 0, result.stdout
     assert result.stderr == ""
     lines = result.stdout.splitlines()
@@ -26,7 +42,7 @@ def test_validate_passes_and_says_what_it_took():
     assert sum("38416" in line for line in lines) == 2
 
 
-def test_validate_prints_one_json_document():
+def test_validate_prints_one_json_document(run):
     result = run("validate", "--preset", "owl", "--levels", "4", "--json")
     assert result.returncode == 0
     document = json.loads(result.stdout)
@@ -44,7 +60,7 @@ def test_validate_prints_one_json_document():
         assert row["levels"] == (3 if row["check"] == "limit" else 4)
 
 
-def test_a_wrong_angle_in_a_urdf_fails_with_status_1(tmp_path):
+def test_a_wrong_angle_in_a_urdf_fails_with_status_1(run, tmp_path):
     foot = Foot.preset("parrot")
     file = tmp_path / "foot.urdf"
     file.write_text(to_urdf(foot.replace(omega=0.999 * foot.omega)), encoding="utf-8")
@@ -54,7 +70,7 @@ def test_a_wrong_angle_in_a_urdf_fails_with_status_1(tmp_path):
     assert "16 of 16" not in result.stdout
 
 
-def test_reach_reproduces_the_reference_values():
+def test_reach_reproduces_the_reference_values(run):
     result = run(*FIGURE, "--json")
     assert result.returncode == 0
     document = json.loads(result.stdout)
@@ -68,7 +84,7 @@ def test_reach_reproduces_the_reference_values():
     assert len(document["levels"]) == 33
 
 
-def test_reach_writes_every_file_and_prints_where(tmp_path):
+def test_reach_writes_every_file_and_prints_where(run, tmp_path):
     kinds = {"png": "a.png", "html": "b.html", "npz": "c.npz", "convergence": "d.png"}
     options = [f"--{kind}={tmp_path / name}" for kind, name in kinds.items()]
     result = run(*SMALL, *options)
@@ -82,7 +98,7 @@ def test_reach_writes_every_file_and_prints_where(tmp_path):
     assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_arrays_hold_points_levels_and_bounds(tmp_path):
+def test_arrays_hold_points_levels_and_bounds(run, tmp_path):
     file = tmp_path / "a.npz"
     assert run(*SMALL, "--npz", str(file)).returncode == 0
     again = tmp_path / "b.npz"
@@ -102,14 +118,14 @@ def test_arrays_hold_points_levels_and_bounds(tmp_path):
         assert arrays["depth_bound"] == pytest.approx([0.236068] * 2, abs=1e-6)
 
 
-def test_fingers_have_names_too():
+def test_fingers_have_names_too(run):
     options = ("--preset", "anisodactyl", "--finger", "hallux", "--depth", "3")
     document = json.loads(run("reach", *options, "--levels", "4", "--json").stdout)
     assert document["finger"] == "hallux"
     assert document["sets"][0]["points"] == 64
 
 
-def test_long_fingers_get_fewer_levels():
+def test_long_fingers_get_fewer_levels(run):
     document = json.loads(run("reach", "--finger", "4", "--json").stdout)
     assert len(document["levels"]) == 18
 
@@ -133,7 +149,7 @@ def test_long_fingers_get_fewer_levels():
         (("validate", "--urdf", __file__), "the URDF is not XML"),
     ],
 )
-def test_bad_input_is_one_line_and_status_2(arguments, words):
+def test_bad_input_is_one_line_and_status_2(run, arguments, words):
     result = run(*arguments)
     assert result.returncode == 2
     assert result.stdout == ""
@@ -159,7 +175,7 @@ def test_without_matplotlib_the_extra_is_named_in_one_line(tmp_path):
 
 @pytest.mark.parametrize("command", ["reach", "validate"])
 def test_help_is_quick_and_fits(command):
-    result = run(command, "--help")
+    result = run_alone(command, "--help")
     assert result.returncode == 0
     assert max(map(len, result.stdout.splitlines())) <= 80
     code = (
