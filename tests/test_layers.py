@@ -19,6 +19,7 @@ LAYERS = (
     "control_boxes",
     "inverse",
     "raster",
+    "extent",
     "paths",
     "files",
     "hausdorff",

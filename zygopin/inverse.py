@@ -60,8 +60,9 @@ def nearest_reachable(
     """The reachable point nearest to a target.
 
     For a finite control set it is exact; for the interval [0, 1] its distance is
-    within the tolerance of the least one. The verdict is `reachable` where the
-    distance is within the tolerance.
+    within the tolerance of the least one. Where the nodes run out first,
+    `lower_bound` says how far that distance may be from the least one. The verdict is
+    `reachable` where the distance is within the tolerance.
 
     Args:
         target: The point x + iz, in units in which phalanx 1 has length 1/ρ.
