@@ -79,13 +79,16 @@ def test_reach_reproduces_the_reference_values(run):
     assert wide["x"] == pytest.approx([0.653267, 1.381966], abs=1e-6)
     assert wide["z"] == pytest.approx([-1.021775, 0], abs=1e-6)
     assert wide["depth_bound"] == pytest.approx(0.236068, abs=1e-6)
+    assert wide["hull_area"] == pytest.approx(0.226553, abs=1e-6)
+    assert wide["hull"] is None
     assert document["sets"][0]["omega"] == pytest.approx(np.pi / 12)
     assert document["finger"] == "finger3"
     assert len(document["levels"]) == 33
 
 
 def test_reach_writes_every_file_and_prints_where(run, tmp_path):
-    kinds = {"png": "a.png", "html": "b.html", "npz": "c.npz", "convergence": "d.png"}
+    kinds = {"png": "a.png", "html": "b.html", "npz": "c.npz"}
+    kinds |= {"convergence": "d.png", "dimension": "e.png"}
     options = [f"--{kind}={tmp_path / name}" for kind, name in kinds.items()]
     result = run(*SMALL, *options)
     assert result.returncode == 0, result.stderr
@@ -118,6 +121,17 @@ def test_arrays_hold_points_levels_and_bounds(run, tmp_path):
         assert arrays["depth_bound"] == pytest.approx([0.236068] * 2, abs=1e-6)
 
 
+def test_vertices_of_the_hull_come_with_their_words(run):
+    found = json.loads(run(*SMALL, "--hull", "--json").stdout)["sets"][1]["hull"]
+    foot = Foot.preset("paper")
+    for vertex in found:
+        controls = np.zeros(14)
+        controls[5:9] = vertex["controls"]
+        tip = forward_kinematics(foot, controls)[8, 1]
+        assert np.hypot(*tip[:2]) == pytest.approx(abs(vertex["x"]), abs=1e-12)
+        assert tip[2] == pytest.approx(vertex["z"], abs=1e-12)
+
+
 def test_fingers_have_names_too(run):
     options = ("--preset", "anisodactyl", "--finger", "hallux", "--depth", "3")
     document = json.loads(run("reach", *options, "--levels", "4", "--json").stdout)
@@ -143,6 +157,7 @@ def test_long_fingers_get_fewer_levels(run):
         (("reach", "--preset", "crow"), "unknown preset 'crow'"),
         ((*SMALL, "--png", "/dev/null/a.png"), "cannot be written"),
         ((*SMALL, "--npz", "/dev/null/a.npz"), "cannot be written"),
+        (("reach", "--html", "/dev/null/a.html", "--levels", "2"), "cannot be written"),
         (("validate", "--levels", "1"), "'--levels': 1 is not in the range"),
         (("validate", "--rho", "1"), "--rho = 1 is not a number above 1"),
         (("validate", "--urdf", "none.urdf"), "none.urdf: cannot be read: No such"),

@@ -6,13 +6,14 @@ import time
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from zygopin.errors import ParameterError
 from zygopin.hausdorff import directed_distance, hausdorff_distance
 
+FEW = settings(max_examples=40, deadline=None)
 COORDINATE = st.integers(-8, 8).map(float)
 
 
@@ -41,12 +42,14 @@ def test_one_sided_distance_depends_on_the_side():
     assert directed_distance(whole, part).indices == (1, 0)
 
 
+@FEW
 @given(clouds(3), clouds(3))
 def test_it_is_the_definition(first, second):
     found = hausdorff_distance(first, second)
     assert found.value == pytest.approx(by_definition(first, second), abs=1e-14)
 
 
+@FEW
 @given(clouds(), clouds())
 def test_the_points_attain_it_and_stand_at_their_indices(first, second):
     found = hausdorff_distance(first, second)
@@ -55,6 +58,7 @@ def test_the_points_attain_it_and_stand_at_their_indices(first, second):
     assert found.value == pytest.approx(np.linalg.norm(ends[0] - ends[1]), abs=1e-14)
 
 
+@FEW
 @given(clouds(), clouds(), clouds())
 def test_it_is_a_metric_on_sets(first, second, third):
     def distance(a, b):
@@ -66,6 +70,7 @@ def test_it_is_a_metric_on_sets(first, second, third):
     assert distance(first, third) <= via + 1e-12
 
 
+@FEW
 @given(clouds(), clouds(), st.integers(-9, 9))
 def test_it_scales_with_the_unit(first, second, power):
     factor = 2.0**power
@@ -73,6 +78,7 @@ def test_it_scales_with_the_unit(first, second, power):
     assert scaled.value == factor * hausdorff_distance(first, second).value
 
 
+@FEW
 @given(clouds(), clouds())
 def test_complex_numbers_are_points_of_the_plane(first, second):
     numbers = [cloud[:, 0] + 1j * cloud[:, 1] for cloud in (first, second)]

@@ -14,7 +14,13 @@ from PIL import Image
 
 from zygopin import Foot
 from zygopin.errors import FileError, ParameterError
-from zygopin.plots import _density, plot_convergence, plot_reach, unit_of
+from zygopin.plots import (
+    _density,
+    plot_box_counts,
+    plot_convergence,
+    plot_reach,
+    unit_of,
+)
 from zygopin.reach import finger_reach
 from zygopin.reach_scene import MOST_DOTS, export_reach_scene, junction_clouds
 
@@ -53,6 +59,29 @@ def test_figures_repeat_and_name_no_program(tmp_path):
     assert Image.open(io.BytesIO(first)).format == "PNG"
 
 
+def red(picture):
+    return (picture[..., 0] > 120) & (picture[..., 1:].max(-1) < 110)
+
+
+def test_a_hull_is_drawn_on_request(tmp_path):
+    plain = pixels(plot_reach(sets(), tmp_path / "a.png"))
+    outlined = pixels(plot_reach(sets(), tmp_path / "b.png", hull=True))
+    assert red(plain).sum() == 0
+    assert red(outlined).sum() > 300
+
+
+def test_hull_reproduces_the_reference_area():
+    assert finger_reach(PAPER, 3, 33).hull.area == pytest.approx(0.226553, abs=1e-6)
+    small = finger_reach(PAPER.replace(scale=0.01), 3, 9).hull.area
+    assert small == pytest.approx(1e-4 * finger_reach(PAPER, 3, 9).hull.area)
+
+
+def test_box_counts_show_a_dot_for_each_size(tmp_path):
+    file = plot_box_counts(finger_reach(PAPER, 3, 3, depth=8), tmp_path / "a.png")
+    rows = np.unique(np.nonzero(red(pixels(file)))[0])
+    assert 1 + np.sum(np.diff(rows) > 1) >= 6
+
+
 def test_density_worked_by_hand():
     points = np.array([0.1 + 0.1j, 0.2 + 0.3j, 1.5 + 0.5j, 2 + 1j])
     counts = _density(points, np.array([[0.0, 2.0], [0.0, 1.0]]), cell=1.0)
@@ -68,9 +97,8 @@ def test_density_counts_every_point():
 def test_convergence_shows_one_colour_on_grey(tmp_path):
     reaches = [finger_reach(PAPER, 3, 3, depth=k) for k in range(1, 6)]
     picture = pixels(plot_convergence(reaches, tmp_path / "a.png"))
-    red = picture.astype(int) @ [2, -1, -1] > 150
-    assert red.sum() > 200
-    assert np.argwhere(red)[:, 0].max() > picture.shape[0] / 2
+    assert red(picture).sum() > 200
+    assert np.argwhere(red(picture))[:, 0].max() > picture.shape[0] / 2
 
 
 def test_units_suit_the_foot():

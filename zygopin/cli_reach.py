@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -43,6 +44,7 @@ _FILES = {
     "html": ("scene", "Draw all fingers' sets around the foot, at the first ω."),
     "npz": ("arrays", "Write points, levels and bounds for NumPy."),
     "convergence": ("convergence", "Draw R1, R2, … and their distances to the limit."),
+    "dimension": ("dimension", "Draw the box counts of the first ω's set, as a PNG."),
 }
 """What `reach` writes: by option, what it is called, and what the help says."""
 
@@ -116,6 +118,7 @@ def _file_options(command: Callable[..., Any]) -> Callable[..., Any]:
     "--depth", type=click.IntRange(1, 20), help="Phalanges; else the finger's own."
 )
 @_file_options
+@click.option("--hull", is_flag=True, help="Convex hulls: in figures, and as JSON.")
 @_JSON
 def reach(
     finger: str,
@@ -127,21 +130,21 @@ def reach(
     """Say what a finger's tip can reach, and how exactly; draw it.
 
     The set of all control sequences with the given levels, in the finger's plane.
-    grid: how far the tip can be from it with controls between the levels. depth: how
-    far the set is from that of a finger that goes on for ever.
+    Its bounds: grid, how far the tip can be from it with controls between the levels;
+    depth, how far the set is from that of a finger that goes on for ever.
     """
     from zygopin import reach_output
 
     files = {name: options.pop(name) for name in _FILES}
-    omegas = options.pop("omegas") or (None,)
+    omegas, hull = options.pop("omegas") or (None,), options.pop("hull")
     feet = [make_foot(**options, omega=omega) for omega in omegas]
     sets = _sets(feet, finger, levels, depth)
     found = list(progress(sets, "reaching", len(feet), quiet=as_json))
     wanted = {name: path for name, path in files.items() if path is not None}
-    written = _written(found, levels, wanted)
+    written = _Writers(found, levels, hull).written(wanted)
     names = list(progress(written, "writing", len(wanted), quiet=as_json))
     if as_json:
-        document = reach_output.reach_document(found)
+        document = reach_output.reach_document(found, hull=hull)
         click.echo(json.dumps(document, indent=2, allow_nan=False))
         return
     _print_sets(found)
@@ -163,49 +166,60 @@ def _sets(
         yield finger_reach(foot, which, count, depth=depth)
 
 
-def _written(
-    sets: Sequence[FingerReach], levels: int | None, files: dict[str, Path]
-) -> Iterator[str]:
-    """Write the files; yields the name of each that is done."""
-    writers = {
-        "png": _write_figure,
-        "html": _write_scene,
-        "npz": _write_arrays,
-        "convergence": _write_convergence,
-    }
-    for name, path in files.items():
-        writers[name](sets, levels, path)
-        yield name
+@dataclass(frozen=True)
+class _Writers:
+    """What writes each file.
 
+    Attributes:
+        sets: The sets, one for each joint limit.
+        levels: The number of levels that was asked for.
+        hull: Whether figures show convex hulls.
+    """
 
-def _write_figure(sets: Sequence[FingerReach], _: int | None, path: Path) -> None:
-    from zygopin.plots import plot_reach
+    sets: Sequence[FingerReach]
+    levels: int | None
+    hull: bool
 
-    plot_reach(sets, path)
+    def written(self, files: dict[str, Path]) -> Iterator[str]:
+        """Write the files; yields the name of each that is done."""
+        for name, path in files.items():
+            getattr(self, name)(path)
+            yield name
 
+    def png(self, path: Path) -> None:
+        """The sets as densities."""
+        from zygopin.plots import plot_reach
 
-def _write_scene(sets: Sequence[FingerReach], levels: int | None, path: Path) -> None:
-    from zygopin.reach_scene import export_reach_scene
+        plot_reach(self.sets, path, hull=self.hull)
 
-    export_reach_scene(sets[0].foot, path, levels=levels)
+    def html(self, path: Path) -> None:
+        """All fingers' sets around the foot."""
+        from zygopin.reach_scene import export_reach_scene
 
+        export_reach_scene(self.sets[0].foot, path, levels=self.levels)
 
-def _write_arrays(sets: Sequence[FingerReach], _: int | None, path: Path) -> None:
-    from zygopin.reach_output import write_arrays
+    def npz(self, path: Path) -> None:
+        """Points, levels and bounds."""
+        from zygopin.reach_output import write_arrays
 
-    write_arrays(sets, path)
+        write_arrays(self.sets, path)
 
+    def convergence(self, path: Path) -> None:
+        """The sets of growing depth."""
+        from zygopin.plots import plot_convergence
+        from zygopin.reach import MOST_LEVELS, finger_reach, levels_within
 
-def _write_convergence(
-    sets: Sequence[FingerReach], levels: int | None, path: Path
-) -> None:
-    from zygopin.plots import plot_convergence
-    from zygopin.reach import MOST_LEVELS, finger_reach, levels_within
+        foot, finger = self.sets[0].foot, self.sets[0].finger.name
+        count = levels_within(DEEPEST, SEQUENCE_POINTS, self.levels or MOST_LEVELS)
+        depths = range(1, DEEPEST + 1)
+        reaches = [finger_reach(foot, finger, count, depth=k) for k in depths]
+        plot_convergence(reaches, path)
 
-    foot, finger = sets[0].foot, sets[0].finger.name
-    count = levels_within(DEEPEST, SEQUENCE_POINTS, levels or MOST_LEVELS)
-    depths = range(1, DEEPEST + 1)
-    plot_convergence([finger_reach(foot, finger, count, depth=k) for k in depths], path)
+    def dimension(self, path: Path) -> None:
+        """The box counts."""
+        from zygopin.plots import plot_box_counts
+
+        plot_box_counts(self.sets[0], path)
 
 
 def _print_sets(sets: Sequence[FingerReach]) -> None:
@@ -217,5 +231,6 @@ def _print_sets(sets: Sequence[FingerReach]) -> None:
         f"{first.foot.name}, {first.finger.name}: {first.depth} phalanges, "
         f"{len(first.plane.levels)} levels of each control"
     )
-    headings = ("ω [°]", "points", "x [mm]", "z [mm]", "grid [mm]", "depth [mm]")
-    print_table(headings, reach_rows(sets), "rrrrrr")
+    headings = ("ω [°]", "points", "x [mm]", "z [mm]", "hull [mm²]", "grid", "depth")
+    print_table(headings, reach_rows(sets), "rrrrrrr")
+    click.echo("grid, depth: bounds of the distance to all controls, and to the limit")

@@ -1,4 +1,4 @@
-"""Figures of reachable sets: their density and their convergence."""
+"""Figures of reachable sets: their density, their convergence, their dimension."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin.errors import MissingExtraError, ParameterError
+from zygopin.extent import box_dimension
 from zygopin.files import write_bytes
 from zygopin.foot import Foot
 from zygopin.hausdorff import hausdorff_distance
@@ -75,12 +76,15 @@ def unit_of(foot: Foot) -> Unit:
     return Unit("m", 1.0) if foot.size >= LARGE else Unit("mm", 1e3)
 
 
-def plot_reach(reaches: Sequence[FingerReach], path: Path | str) -> Path:
+def plot_reach(
+    reaches: Sequence[FingerReach], path: Path | str, *, hull: bool = False
+) -> Path:
     """Draw reachable sets side by side, at the same scale, as densities.
 
     Args:
         reaches: One set for each panel, of feet of one scale.
         path: The PNG file.
+        hull: Whether to draw the convex hulls, with their areas.
 
     Returns:
         The path.
@@ -96,12 +100,15 @@ def plot_reach(reaches: Sequence[FingerReach], path: Path | str) -> Path:
     counts = [_density(reach.points, box, cell) for reach in reaches]
     most = max(int(count.max()) for count in counts)
     height = PANEL * float(np.ptp(box[1]) / np.ptp(box[0]))
-    figure = _figure(1.3 + PANEL * len(reaches), 1.2 + min(height, 2 * PANEL))
+    figure = _figure(1.3 + PANEL * len(reaches), 1.5 + min(height, 2 * PANEL))
     panels = figure.subplots(1, len(reaches), squeeze=False, sharey=True)[0]
     for panel, reach, count in zip(panels, reaches, counts, strict=True):
         image = _draw_density(panel, count, box * unit.per_metre, most)
         _name_axes(panel, unit, leftmost=panel is panels[0])
-        panel.set_title(_reach_title(reach, unit), fontsize=9)
+        words = _reach_title(reach, unit)
+        if hull:
+            words += f"\n{_drawn_hull(panel, reach, unit)}"
+        panel.set_title(words, fontsize=9)
     label = f"points per cell of {unit.text(cell)}"
     figure.colorbar(image, ax=list(panels), label=label, shrink=0.8)
     figure.suptitle(f"$R_{{{reaches[0].depth}}}$ of {_name(reaches[0])}", fontsize=11)
@@ -112,7 +119,7 @@ def plot_convergence(reaches: Sequence[FingerReach], path: Path | str) -> Path:
     """Draw R₁, R₂, … over the last of them, and their distances to the limit.
 
     Each measured distance is d_H(Rₖ, R_m) to the last set, and the bar above it what
-    R_m itself may be away from R∞; the line is the bound ρ^−k/(ρ−1).
+    R_m itself may be away from R∞; the line is the bound s·ρ^−k/(ρ−1).
 
     Args:
         reaches: Sets of one finger and one set of levels, by growing depth.
@@ -131,16 +138,59 @@ def plot_convergence(reaches: Sequence[FingerReach], path: Path | str) -> Path:
     shown = [reaches[round(place)] for place in places]
     figure = _figure(12.0, 6.0)
     grid = figure.add_gridspec(2, len(shown), height_ratios=(1.35, 1))
-    first = figure.add_subplot(grid[0, 0])
+    box = _box(np.concatenate([_corners(reach.points) for reach in reaches]))
     for column, reach in enumerate(shown):
-        panel = figure.add_subplot(grid[0, column], sharey=first) if column else first
+        panel = figure.add_subplot(grid[0, column])
         _draw_dots(panel, last, unit, PALE)
         _draw_dots(panel, reach, unit, ACCENT)
         panel.set_title(f"$R_{{{reach.depth}}}$, {_count(reach)} points", fontsize=9)
+        panel.set(xlim=box[0] * unit.per_metre, ylim=box[1] * unit.per_metre)
         _name_axes(panel, unit, leftmost=column == 0)
     _draw_distances(figure.add_subplot(grid[1, :]), reaches, unit)
-    name = f"{_name(last)}, {len(last.plane.levels)} levels"
-    figure.suptitle(f"{name}; grey: $R_{{{last.depth}}}$", fontsize=11)
+    figure.suptitle(f"{_full_name(last)}; grey: $R_{{{last.depth}}}$", fontsize=11)
+    return _save(figure, path)
+
+
+def plot_box_counts(reach: FingerReach, path: Path | str) -> Path:
+    """Draw the box counts of a set and the line whose slope is its dimension.
+
+    Boxes smaller than the set's depth bound do not see the attractor: where the range
+    of the fit has any, a broken line marks the bound.
+
+    Args:
+        reach: The set.
+        path: The PNG file.
+
+    Returns:
+        The path.
+
+    Raises:
+        ParameterError: All points are one.
+        FileError: The file cannot be written.
+    """
+    unit, found = unit_of(reach.foot), box_dimension(reach.points)
+    sides = found.sides * unit.per_metre
+    fit = np.polyfit(np.log(sides), np.log(found.counts), 1)
+    figure = _figure(6.4, 4.8)
+    panel = figure.subplots()
+    panel.loglog(sides, found.counts, "o", color=ACCENT, label="boxes with a point")
+    slope = (
+        f"slope −{found.dimension:.4g}, off by {found.residual:.2g} of log N at most"
+    )
+    panel.loglog(sides, np.exp(np.polyval(fit, np.log(sides))), color=INK, label=slope)
+    if reach.depth_bound > found.sides.min():
+        bound = reach.depth_bound * unit.per_metre
+        panel.axvline(bound, color=INK, ls="--", lw=0.8, label=_bound_text(reach))
+    panel.set_xlabel(f"side of a box [{unit.name}]")
+    panel.set_ylabel("boxes N")
+    panel.grid(visible=True, which="both", color=PALE, linewidth=0.4)
+    panel.legend(frameon=False, fontsize=9)
+    spread = f"{unit.text(found.sides.min())} to {unit.text(found.sides.max())}"
+    panel.set_title(
+        f"$R_{{{reach.depth}}}$ of {_full_name(reach)}\n"
+        f"box-counting dimension {found.dimension:.4g}, boxes of {spread}",
+        fontsize=9,
+    )
     return _save(figure, path)
 
 
@@ -180,13 +230,25 @@ def _draw_distances(panel: Axes, reaches: Sequence[FingerReach], unit: Unit) -> 
     tail = np.full(len(measured), bounds[-1])
     bars = np.stack([np.zeros_like(tail), tail])
     label = f"measured $d_H(R_k, R_{{{last.depth}}})$ + what remains to $R_\\infty$"
-    panel.semilogy(depths, bounds, "-", color=INK, label="$\\rho^{-k}/(\\rho-1)$")
+    panel.semilogy(depths, bounds, "-", color=INK, label="$s\\,\\rho^{-k}/(\\rho-1)$")
     panel.errorbar(depths[:-1], measured, bars, fmt="o", color=ACCENT, label=label)
     panel.set_xlabel("depth k")
     panel.set_ylabel(f"$d_H(R_k, R_\\infty)$ [{unit.name}]")
     panel.set_xticks(depths)
     panel.grid(visible=True, which="both", color=PALE, linewidth=0.4)
     panel.legend(frameon=False)
+
+
+def _drawn_hull(panel: Axes, reach: FingerReach, unit: Unit) -> str:
+    """Draw the convex hull's outline; returns its area in words."""
+    corners = np.append(reach.hull.points, reach.hull.points[:1]) * unit.per_metre
+    panel.plot(corners.real, corners.imag, color=ACCENT, linewidth=0.9)
+    return f"convex hull: {reach.hull.area * unit.per_metre**2:.4g} {unit.name}²"
+
+
+def _bound_text(reach: FingerReach) -> str:
+    """What the depth bound is called where it limits the boxes."""
+    return f"$d_H$ to $R_\\infty$: {unit_of(reach.foot).text(reach.depth_bound)}"
 
 
 def _density(
@@ -226,7 +288,7 @@ def _reach_title(reach: FingerReach, unit: Unit) -> str:
     grid, whole = reach.grid_bound, reach.grid_bound + reach.depth_bound
     return (
         f"ω = {omega:.6g}°: {_count(reach)} points, {len(reach.plane.levels)} levels\n"
-        f"$d_H$ ≤ {unit.text(grid)} to controls in [0, 1]\n"
+        f"$d_H$ ≤ {unit.text(grid)} to all controls in [0, 1]\n"
         f"$d_H$ ≤ {unit.text(whole)} to $R_\\infty$"
     )
 
@@ -240,6 +302,12 @@ def _name(reach: FingerReach) -> str:
     """Which set of which finger."""
     foot, length = reach.foot, unit_of(reach.foot).text(reach.foot.scale)
     return f"{foot.name}, {reach.finger.name}, ρ = {foot.rho:.6g}, s = {length}"
+
+
+def _full_name(reach: FingerReach) -> str:
+    """Which set of which finger, with its joint limit and its levels."""
+    omega = math.degrees(reach.foot.omega)
+    return f"{_name(reach)}, ω = {omega:.6g}°, {len(reach.plane.levels)} levels"
 
 
 def _name_axes(panel: Axes, unit: Unit, *, leftmost: bool) -> None:

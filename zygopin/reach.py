@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from zygopin import checks
 from zygopin.control_system import ControlSystem, Levels, as_tolerance, frozen
 from zygopin.errors import ParameterError, UnknownNameError
+from zygopin.extent import Hull, convex_hull
 from zygopin.foot import Finger, Foot
 from zygopin.ifs import ReachableSet, reachable_set
 from zygopin.inverse import find_word, nearest_reachable
@@ -66,6 +68,11 @@ class FingerReach:
             ParameterError: 0 or 1 is not a level.
         """
         return self.foot.scale * self.plane.grid_bound
+
+    @cached_property
+    def hull(self) -> Hull:
+        """The convex hull of `points`: its vertices and area in metres."""
+        return convex_hull(self.points)
 
     def in_space(
         self, indices: NDArray[np.intp] | slice = slice(None)

@@ -72,11 +72,14 @@ def validation_rows(rows: Sequence[ValidationRow]) -> list[tuple[str, ...]]:
     ]
 
 
-def reach_document(reaches: Sequence[FingerReach]) -> dict[str, Any]:
+def reach_document(
+    reaches: Sequence[FingerReach], *, hull: bool = False
+) -> dict[str, Any]:
     """Reachable sets of one finger as plain values, all in SI.
 
     Args:
         reaches: Sets that differ in the feet's joint limits.
+        hull: Whether to list the convex hulls' vertices with their words.
 
     Returns:
         A mapping for JSON; the points themselves are for `write_arrays`.
@@ -87,7 +90,7 @@ def reach_document(reaches: Sequence[FingerReach]) -> dict[str, Any]:
         "finger": first.finger.name,
         "depth": first.depth,
         "levels": first.plane.levels.tolist(),
-        "sets": [_set(reach) for reach in reaches],
+        "sets": [_set(reach, hull=hull) for reach in reaches],
     }
 
 
@@ -106,6 +109,7 @@ def reach_rows(reaches: Sequence[FingerReach]) -> list[tuple[str, ...]]:
             str(len(reach.plane.points)),
             _range(reach.points.real),
             _range(reach.points.imag),
+            f"{reach.hull.area * MILLIMETRES**2:.4g}",
             f"{reach.grid_bound * MILLIMETRES:.4g}",
             f"{reach.depth_bound * MILLIMETRES:.4g}",
         )
@@ -149,7 +153,7 @@ def write_arrays(reaches: Sequence[FingerReach], path: Path | str) -> Path:
     return write_bytes(path, buffer.getvalue())
 
 
-def _set(reach: FingerReach) -> dict[str, Any]:
+def _set(reach: FingerReach, *, hull: bool) -> dict[str, Any]:
     """One set as plain values."""
     points = reach.points
     return {
@@ -157,12 +161,23 @@ def _set(reach: FingerReach) -> dict[str, Any]:
         "points": len(points),
         "x": [float(points.real.min()), float(points.real.max())],
         "z": [float(points.imag.min()), float(points.imag.max())],
+        "hull_area": reach.hull.area,
+        "hull": _vertices(reach) if hull else None,
         "grid_bound": reach.grid_bound,
         "depth_bound": reach.depth_bound,
     }
 
 
+def _vertices(reach: FingerReach) -> list[dict[str, Any]]:
+    """The hull's vertices and their words."""
+    words = reach.hull.words(reach.plane)
+    return [
+        {"x": float(point.real), "z": float(point.imag), "controls": word.tolist()}
+        for point, word in zip(reach.hull.points, words, strict=True)
+    ]
+
+
 def _range(values: np.ndarray) -> str:
     """Least and greatest of some lengths [mm]."""
     low, high = (float(f(values)) * MILLIMETRES + 0.0 for f in (np.min, np.max))
-    return f"{low:.5g} … {high:.5g}"
+    return f"{low:.4g} … {high:.4g}"
