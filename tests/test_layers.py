@@ -18,6 +18,7 @@ LAYERS = (
     "word_tree",
     "control_boxes",
     "inverse",
+    "cells",
     "raster",
     "extent",
     "paths",

@@ -119,7 +119,8 @@ def box_dimension(
         raise ParameterError("span of the points", span, "a length > 0", remedy)
     numbers = _numbers(boxes)
     sides = span / numbers
-    counts = np.array([_count((points - low) / side) for side in sides])
+    places = (points - low) / span
+    counts = np.array([_count(places, int(number)) for number in numbers])
     scale, filled = np.log(1 / sides), np.log(counts)
     slope, level = np.polyfit(scale, filled, 1)
     residual = float(np.abs(slope * scale + level - filled).max())
@@ -146,10 +147,11 @@ def _numbers(boxes: Sequence[int] | None) -> NDArray[np.float64]:
     return np.array(sorted(numbers), dtype=float)
 
 
-def _count(scaled: NDArray[np.complex128]) -> int:
-    """Number of unit boxes that hold a point."""
-    row, column = scaled.imag.astype(np.intp), scaled.real.astype(np.intp)
-    filled = np.zeros((row.max() + 1, column.max() + 1), bool)
+def _count(places: NDArray[np.complex128], number: int) -> int:
+    """Number of boxes that hold a point, of number² in the unit square."""
+    row = np.minimum((places.imag * number).astype(np.intp), number - 1)
+    column = np.minimum((places.real * number).astype(np.intp), number - 1)
+    filled = np.zeros((number, number), bool)
     filled[row, column] = True
     return int(filled.sum())
 

@@ -21,6 +21,9 @@ from zygopin.word_tree import search_words
 MAX_NODES = 4_000_000
 """Nodes of the tree that a query may visit, unless said otherwise: seconds."""
 
+SHORTEST = 1e-60
+"""Shortest last phalanx of a query: far below what double precision can resolve."""
+
 
 def find_word(
     target: complex,
@@ -45,7 +48,7 @@ def find_word(
     Raises:
         ParameterError: A parameter is out of range.
     """
-    goal = _goal(target, depth, as_tolerance(tolerance), max_nodes, nearest=False)
+    goal = _goal(target, system, depth, tolerance, (max_nodes, False))
     return _search(system, goal)
 
 
@@ -78,7 +81,7 @@ def nearest_reachable(
     Raises:
         ParameterError: A parameter is out of range.
     """
-    goal = _goal(target, depth, as_tolerance(tolerance), max_nodes, nearest=True)
+    goal = _goal(target, system, depth, tolerance, (max_nodes, True))
     return _search(system, goal)
 
 
@@ -119,14 +122,23 @@ def _search(system: ControlSystem, goal: Goal) -> WordAnswer:
 
 
 def _goal(
-    target: complex, depth: int, tolerance: float, max_nodes: int, *, nearest: bool
+    target: complex,
+    system: ControlSystem,
+    depth: int,
+    tolerance: float,
+    limits: tuple[int, bool],
 ) -> Goal:
-    """A checked goal."""
+    """A checked goal; the limits are the most nodes, and whether to go for nearest."""
     points = as_points("target", target)
     if points.ndim:
         remedy = "ask for one point at a time"
         raise ParameterError("target.shape", points.shape, "()", remedy)
-    count = checks.integer("max_nodes", max_nodes, 1, 2**62)
+    length = system.rho ** -as_depth(depth)
+    if length < SHORTEST:
+        remedy = "take fewer phalanges: the last ones do not move the tip"
+        allowed = f"at least {SHORTEST:g}"
+        raise ParameterError("length of the last phalanx", length, allowed, remedy)
+    count = checks.integer("max_nodes", limits[0], 1, 2**62)
     return Goal(
-        complex(points.item()), as_depth(depth), tolerance, count, nearest=nearest
+        complex(points.item()), depth, as_tolerance(tolerance), count, limits[1]
     )

@@ -2,10 +2,9 @@
 
 Two steps, neither of which lists nᵏ words:
 
-Push. R_g = F(R_{g−1}), generation by generation, keeping one true point in each cell
-of a grid. Marked cells hold true points. What dropping the others loses is at most a
-cell's diagonal, and the next contraction divides it by ρ: `spread` bounds how far a
-point of R_g may be from a point in a marked cell.
+Push (`cells`). Generation by generation, one true point is kept in each cell of a
+grid. Marked cells hold true points; `spread` bounds how far a point of R_g may be from
+a true point in a marked cell.
 
 Pull. An unmarked pixel within the spread of a marked one is in question. Whether R_g
 comes within τ of y is whether R_{g−1} comes within ρτ of some f_v⁻¹(y). The allowance
@@ -25,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin import checks
+from zygopin.cells import OUTLINE, Generation, Grid, push
 from zygopin.control_system import (
     ControlSystem,
     as_depth,
@@ -32,7 +32,6 @@ from zygopin.control_system import (
     depth_within,
     frozen,
 )
-from zygopin.errors import ParameterError
 
 HALF_DIAGONAL = math.sqrt(0.5) * (1 + 1e-6)
 """From a pixel's centre to its corner, and a little for rounding [pixels]."""
@@ -43,17 +42,8 @@ ACCEPT = 0.98
 ATTRACTOR = 0.01
 """Distance between the attractor and the depth drawn in its place, at most [pixels]."""
 
-COARSENING = 0.35
-"""Cells of a generation are ρ^0.35 times those of the next: less work, more spread."""
-
-OUTLINE = 256
-"""Cells across the first, coarse pass, which finds how large the set is."""
-
 MAX_PIXELS = 2**14
 """Most pixels along a side."""
-
-MAX_CELLS = 2**29
-"""Most cells in a grid: half a gigabyte."""
 
 DIAGONAL = math.sqrt(2) * (1 + 1e-6)
 """Diagonal of a cell, and a little for rounding [cells]."""
@@ -121,11 +111,11 @@ def raster(
     pixels = checks.integer("pixels", pixels, 8, MAX_PIXELS)
     drawn = 0 if depth is None else as_depth(depth)
     reach = 2 * system.tail(0)
-    outline = _push(system, drawn or depth_within(system.rho, reach / OUTLINE), None)
+    outline = push(system, drawn or depth_within(system.rho, reach / OUTLINE), None)
     window = outline[-1].window(system.turn, pixels)
     if depth is None:
         drawn = depth_within(system.rho, ATTRACTOR * window.size)
-    generations = _push(system, drawn, window)
+    generations = push(system, drawn, window)
     image = _resolved(system, generations)
     rest = depth_bound(system.rho, drawn) if depth is None else 0.0
     low = window.corner
@@ -135,150 +125,8 @@ def raster(
     return Raster(frozen(image), extent, window.size, drawn, bound)
 
 
-@dataclass(frozen=True)
-class _Grid:
-    """A rectangle of square cells.
-
-    Attributes:
-        corner: Its corner of least x and z.
-        size: Side of a cell.
-        shape: Rows and columns.
-    """
-
-    corner: complex
-    size: float
-    shape: tuple[int, int]
-
-    def places(
-        self, base: NDArray[np.complex128], factor: complex
-    ) -> NDArray[np.complex128]:
-        """Points factor·base in units of the grid: column + i·row."""
-        place: NDArray[np.complex128] = base * (factor / self.size)
-        place -= self.corner / self.size
-        return place
-
-    def index(self, place: NDArray[np.complex128]) -> NDArray[np.intp]:
-        """Flat index of the cell at each place, which must lie in the grid."""
-        cell = place.imag.astype(np.intp)
-        cell *= self.shape[1]
-        cell += place.real.astype(np.intp)
-        return cell
-
-
-@dataclass(frozen=True)
-class _Generation:
-    """The cells that R_g meets, as far as the push knows.
-
-    Attributes:
-        grid: The cells.
-        marked: Cells that hold a true point, of the grid's shape.
-        points: One true point in each; empty in the last generation.
-        spread: How far a point of R_g may be from a true point in a marked cell.
-    """
-
-    grid: _Grid
-    marked: NDArray[np.bool_]
-    points: NDArray[np.complex128]
-    spread: float
-
-    def window(self, turn: complex, pixels: int) -> _Grid:
-        """A square of pixels around the whole set, after a turn."""
-        points = turn * self.points
-        slack = self.spread + 3 * self.grid.size
-        low = complex(points.real.min(), points.imag.min())
-        high = complex(points.real.max(), points.imag.max())
-        side = max((high - low).real, (high - low).imag) + 2 * slack
-        corner = (low + high) / 2 - side / 2 * (1 + 1j)
-        return _Grid(corner, side / pixels, (pixels, pixels))
-
-
-def _push(system: ControlSystem, depth: int, window: _Grid | None) -> list[_Generation]:
-    """Generations 0 to depth, the last drawn into a window if there is one."""
-    size = 2 * system.tail(0) / OUTLINE if window is None else window.size
-    origin = _Grid(-0.5 - 0.5j, 1.0, (1, 1))
-    start = np.zeros(1, complex)
-    generations = [_Generation(origin, np.ones((1, 1), bool), start, 0.0)]
-    factors, loss = system.factors, 0.0
-    for step in range(1, depth + 1):
-        cell = size * system.rho ** (COARSENING * (depth - step))
-        base = generations[-1].points + 1
-        spread = loss / system.rho
-        if step == depth and window is not None:
-            generations.append(_drawn(base, factors * system.turn, window, spread))
-            break
-        generations.append(_thinned(base, factors, cell, spread))
-        loss = spread + math.sqrt(2) * cell
-    return generations
-
-
-def _thinned(
-    base: NDArray[np.complex128],
-    factors: NDArray[np.complex128],
-    cell: float,
-    spread: float,
-) -> _Generation:
-    """One true image in each cell, out of all images of some points."""
-    grid = _around(base, factors, cell)
-    kept = np.empty(grid.shape[0] * grid.shape[1], np.complex128)
-    marked = np.zeros(kept.shape, bool)
-    for factor in factors:
-        place = grid.places(base, factor)
-        cells = grid.index(place)
-        kept[cells] = place
-        marked[cells] = True
-    points = kept[marked] * cell + grid.corner
-    return _Generation(grid, marked.reshape(grid.shape), points, spread)
-
-
-def _drawn(
-    base: NDArray[np.complex128],
-    factors: NDArray[np.complex128],
-    window: _Grid,
-    spread: float,
-) -> _Generation:
-    """All images of some points, marked in a window that holds them."""
-    marked = np.zeros(window.shape[0] * window.shape[1], bool)
-    for factor in factors:
-        marked[window.index(window.places(base, factor))] = True
-    return _Generation(window, marked.reshape(window.shape), base[:0], spread)
-
-
-def _around(
-    base: NDArray[np.complex128], factors: NDArray[np.complex128], cell: float
-) -> _Grid:
-    """A grid around all images of some points, two cells wider than need be."""
-    corners, slack = _outline(base)
-    images: NDArray[np.complex128] = np.multiply.outer(factors, corners)
-    slack = slack * float(np.abs(factors).max()) + 2 * cell
-    low = complex(images.real.min() - slack, images.imag.min() - slack)
-    high = complex(images.real.max() + slack, images.imag.max() + slack)
-    span = (high - low) / cell
-    shape = (math.ceil(span.imag), math.ceil(span.real))
-    if shape[0] * shape[1] > MAX_CELLS:
-        remedy = "take fewer pixels"
-        cells = shape[0] * shape[1]
-        raise ParameterError("cells of the grid", cells, f"at most {MAX_CELLS}", remedy)
-    return _Grid(low, cell, shape)
-
-
-def _outline(
-    points: NDArray[np.complex128],
-) -> tuple[NDArray[np.complex128], float]:
-    """A few points, and how far any of the given ones may be from them."""
-    if len(points) <= OUTLINE:
-        return points, 0.0
-    low = complex(points.real.min(), points.imag.min())
-    span = max(np.ptp(points.real), np.ptp(points.imag))
-    grid = _Grid(low, span / OUTLINE * (1 + 1e-9), (OUTLINE, OUTLINE))
-    marked = np.zeros(OUTLINE**2, bool)
-    marked[grid.index(grid.places(points, 1.0))] = True
-    row, column = np.divmod(np.flatnonzero(marked), OUTLINE)
-    centres: NDArray[np.complex128] = (column + 0.5) + 1j * (row + 0.5)
-    return low + grid.size * centres, grid.size
-
-
 def _resolved(
-    system: ControlSystem, generations: list[_Generation]
+    system: ControlSystem, generations: list[Generation]
 ) -> NDArray[np.bool_]:
     """The last generation's pixels, with those in question decided."""
     last = generations[-1]
@@ -299,7 +147,7 @@ def _resolved(
 def _answers(
     system: ControlSystem,
     points: NDArray[np.complex128],
-    generations: list[_Generation],
+    generations: list[Generation],
     judges: list[_Judge],
 ) -> NDArray[np.bool_]:
     """Whether the last generation comes near some pixels' centres, shape (m,).
@@ -345,7 +193,7 @@ def _pulled(
     return np.concatenate(kept_points), np.concatenate(kept_owners)
 
 
-def _judge(generation: _Generation, allowance: float) -> _Judge:
+def _judge(generation: Generation, allowance: float) -> _Judge:
     """Whether R_g comes near points: `_YES`, `_NO` or `_MAYBE` for each.
 
     Cells' distances are between centres, so points may be a diagonal nearer or farther.
@@ -369,12 +217,12 @@ def _judge(generation: _Generation, allowance: float) -> _Judge:
     table = np.where(distance <= reach, _MAYBE, _NO)
     table[distance <= near / grid.size - DIAGONAL] = _YES
     corner = grid.corner - border * grid.size * (1 + 1j)
-    wide = _Grid(corner, grid.size, (table.shape[0], table.shape[1]))
+    wide = Grid(corner, grid.size, (table.shape[0], table.shape[1]))
     return lambda points: _looked_up(table, wide, points)
 
 
 def _looked_up(
-    table: NDArray[np.uint8], grid: _Grid, points: NDArray[np.complex128]
+    table: NDArray[np.uint8], grid: Grid, points: NDArray[np.complex128]
 ) -> NDArray[np.uint8]:
     """The table's entry at each point; `_NO` outside of it."""
     place = (points - grid.corner) / grid.size
