@@ -32,6 +32,7 @@ LAYERS = (
     "kinematics",
     "urdf_check",
     "reach",
+    "reach_inverse",
     "model",
     "validation",
     "clearance",

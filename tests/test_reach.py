@@ -17,11 +17,11 @@ from zygopin.reach import (
     find_finger,
     finger_length,
     finger_reach,
-    inverse_reach,
     levels_within,
     to_plane,
     to_space,
 )
+from zygopin.reach_inverse import inverse_reach
 from zygopin.validation import CHECKS, ValidationRow, iter_validation, validate_foot
 
 PAPER = Foot.preset("paper")
