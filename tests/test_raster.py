@@ -68,6 +68,14 @@ def test_the_image_holds_the_set_in_its_extent():
     assert np.argwhere(drawn.image)[0][0] < 8
 
 
+def test_pixels_left_in_question_widen_the_bound(monkeypatch):
+    monkeypatch.setattr("zygopin.raster.MOST_PULLED", 10)
+    reachable = reachable_set(1.3, 1.0, 9, 4)
+    drawn = raster(reachable.system, 4, pixels=64)
+    assert drawn.error_bound > drawn.pixel
+    assert hausdorff(drawn.centres, reachable.points) <= drawn.error_bound
+
+
 def test_bad_input_is_named():
     with pytest.raises(ParameterError, match="pixels = 2 is not an integer from 8"):
         raster(ControlSystem(PHI, 1.0, 3), pixels=2)

@@ -51,6 +51,9 @@ DIAGONAL = math.sqrt(2) * (1 + 1e-6)
 BLOCK = 2**15
 """Pixels that are decided at once."""
 
+MOST_PULLED = 2**21
+"""Points pulled back in all before the pixels left in question stay unmarked."""
+
 CHUNK = 2**16
 """Points pulled back at once."""
 
@@ -72,7 +75,8 @@ class Raster:
         pixel: Side of a pixel.
         depth: Number of phalanges of the set that was drawn.
         error_bound: Bound on the Hausdorff distance between the centres of the marked
-            pixels and the set: less than `pixel`.
+            pixels and the set: less than `pixel`, unless ρ is near 1 and pixels had to
+            be left in question (see `MOST_PULLED`).
     """
 
     image: NDArray[np.bool_]
@@ -116,19 +120,22 @@ def raster(
     if depth is None:
         drawn = depth_within(system.rho, ATTRACTOR * window.size)
     generations = push(system, drawn, window)
-    image = _resolved(system, generations)
+    image, decided = _resolved(system, generations)
     rest = depth_bound(system.rho, drawn) if depth is None else 0.0
     low = window.corner
     side = pixels * window.size
     extent = (low.real, low.real + side, low.imag, low.imag + side)
-    bound = ACCEPT * window.size + rest
+    error = ACCEPT * window.size
+    if not decided:
+        error = max(error, generations[-1].spread + HALF_DIAGONAL * window.size)
+    bound = error + rest
     return Raster(frozen(image), extent, window.size, drawn, bound)
 
 
 def _resolved(
     system: ControlSystem, generations: list[Generation]
-) -> NDArray[np.bool_]:
-    """The last generation's pixels, with those in question decided."""
+) -> tuple[NDArray[np.bool_], bool]:
+    """The last generation's pixels, and whether all in question were decided."""
     last = generations[-1]
     image: NDArray[np.bool_] = last.marked.copy()
     reach = last.spread / last.grid.size + 1
@@ -137,27 +144,33 @@ def _resolved(
     points = (last.grid.corner + last.grid.size * points) / system.turn
     met = np.zeros(len(points), bool)
     judges: list[_Judge] = []
+    left = MOST_PULLED
     for start in range(0, len(points), BLOCK):
         block = slice(start, start + BLOCK)
-        met[block] = _answers(system, points[block], generations, judges)
+        budget = (left, judges)
+        met[block], left = _answers(system, points[block], generations, budget)
     image[row[met], column[met]] = True
-    return image
+    return image, left >= 0
 
 
 def _answers(
     system: ControlSystem,
     points: NDArray[np.complex128],
     generations: list[Generation],
-    judges: list[_Judge],
-) -> NDArray[np.bool_]:
+    budget: tuple[int, list[_Judge]],
+) -> tuple[NDArray[np.bool_], int]:
     """Whether the last generation comes near some pixels' centres, shape (m,).
 
-    `judges` holds those of the generations met so far, from the last but one down.
+    The budget is how many points may be pulled back, and the judges of the generations
+    met so far, from the last but one down. What is left is returned; below 0, pixels
+    stayed in question.
     """
+    left, judges = budget
     owner = np.arange(len(points))
     met = np.zeros(len(points), bool)
     for back, generation in enumerate(generations[-2::-1], start=1):
-        if not len(points):
+        left -= len(points)
+        if left < 0 or not len(points):
             break
         if len(judges) < back:
             allowance = generations[-1].grid.size * system.rho**back
@@ -165,7 +178,7 @@ def _answers(
         points, owner = _pulled(system, points, owner, judges[back - 1], met)
         keep = ~met[owner]
         points, owner = points[keep], owner[keep]
-    return met
+    return met, left
 
 
 def _pulled(
