@@ -55,3 +55,20 @@ def controls_for(foot, batch=()):
     """Controls in [0, 1] for a foot, of shape (*batch, P)."""
     shape = (*batch, foot.phalanx_count)
     return hnp.arrays(np.float64, shape, elements=reals(0.0, 1.0), fill=st.nothing())
+
+
+def omegas():
+    """Largest joint angles that are allowed [rad]."""
+    return reals(0.05, 2 * math.pi - 0.05).filter(lambda x: x != math.pi)
+
+
+def level_sets(most=5):
+    """A number of equal levels, or a few levels of [0, 1]."""
+    few = st.lists(reals(0.0, 1.0), min_size=1, max_size=most, unique=True)
+    return st.integers(2, most) | few
+
+
+def planar_points(reach=2.5):
+    """Points x + iz in a square around the base."""
+    part = reals(-reach, reach)
+    return st.builds(complex, part, part)

@@ -57,8 +57,8 @@ def test_fingers_that_collide_are_named_as_the_reason(report):
 def test_lengths_are_in_millimetres(report):
     assert branch_rows(report)["Radius"] == "650.0 mm"
     assert branch_rows(report)["Height"] == "−650.0 mm"
-    assert foot_rows(report)["Scale"] == "1000.0 mm"
-    assert foot_rows(report)["Largest angle ω"] == "30.00°"
+    assert foot_rows(report.foot)["Scale"] == "1000.0 mm"
+    assert foot_rows(report.foot)["Largest angle ω"] == "30.00°"
 
 
 def test_small_feet_get_more_decimals():

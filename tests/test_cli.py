@@ -113,7 +113,7 @@ def test_perch_writes_the_scene(tmp_path):
     ("options", "words"),
     [
         (("--radius-mm", "500"), "take a thinner branch"),
-        (("--radius-mm", "8", "--height-mm", "-500"), "move the branch nearer"),
+        (("--radius-mm", "8", "--height-mm", "-500"), "move the branch under the foot"),
         (("--radius-mm", "1.2", "--preset", "paper"), "a grasp needs 90°"),
     ],
 )

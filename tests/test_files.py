@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from zygopin.errors import FileError
-from zygopin.files import write_text
+from zygopin.files import read_text, write_bytes, write_text
 
 
 def test_it_writes_the_text_and_creates_folders(tmp_path):
@@ -59,3 +59,22 @@ def test_folders_and_devices_are_refused(tmp_path, path):
     with pytest.raises(FileError, match="not a regular file"):
         write_text(tmp_path / path, "text")
     assert not Path(os.devnull).is_file()
+
+
+def test_it_writes_bytes_as_they_are(tmp_path):
+    path = write_bytes(tmp_path / "a" / "b.bin", b"\x00\r\n\xff")
+    assert path.read_bytes() == b"\x00\r\n\xff"
+
+
+def test_bytes_for_a_folder_are_refused(tmp_path):
+    with pytest.raises(FileError, match="not a regular file"):
+        write_bytes(tmp_path, b"")
+
+
+def test_it_reads_text_or_says_why_not(tmp_path):
+    (tmp_path / "a.txt").write_bytes("ρ\n".encode())
+    assert read_text(tmp_path / "a.txt") == "ρ\n"
+    (tmp_path / "b.txt").write_bytes(b"\xff")
+    for name in ("b.txt", "none.txt"):
+        with pytest.raises(FileError, match=r"cannot be read: .*: name a text file"):
+            read_text(tmp_path / name)

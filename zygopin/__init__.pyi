@@ -2,6 +2,7 @@
 
 from zygopin.branch import Branch as Branch
 from zygopin.branch import branch_axis as branch_axis
+from zygopin.control_system import ControlSystem as ControlSystem
 from zygopin.description import to_srdf as to_srdf
 from zygopin.description import to_urdf as to_urdf
 from zygopin.description import write_description as write_description
@@ -9,6 +10,7 @@ from zygopin.engine import Engine as Engine
 from zygopin.engine import make_engine as make_engine
 from zygopin.errors import DescriptionError as DescriptionError
 from zygopin.errors import FileError as FileError
+from zygopin.errors import MissingExtraError as MissingExtraError
 from zygopin.errors import ParameterError as ParameterError
 from zygopin.errors import UnknownNameError as UnknownNameError
 from zygopin.errors import ZygopinError as ZygopinError
@@ -18,6 +20,16 @@ from zygopin.foot import Foot as Foot
 from zygopin.grasp import Criteria as Criteria
 from zygopin.grasp import GraspReport as GraspReport
 from zygopin.grasp import check_grasp as check_grasp
+from zygopin.hausdorff import HausdorffDistance as HausdorffDistance
+from zygopin.hausdorff import directed_distance as directed_distance
+from zygopin.hausdorff import hausdorff_distance as hausdorff_distance
+from zygopin.ifs import ReachableSet as ReachableSet
+from zygopin.ifs import attractor as attractor
+from zygopin.ifs import iter_reachable as iter_reachable
+from zygopin.ifs import reachable_set as reachable_set
+from zygopin.inverse import contains as contains
+from zygopin.inverse import find_word as find_word
+from zygopin.inverse import nearest_reachable as nearest_reachable
 from zygopin.kinematics import forward_kinematics as forward_kinematics
 from zygopin.model import FootModel as FootModel
 from zygopin.paths import PACKAGE_PATH as PACKAGE_PATH
@@ -28,6 +40,14 @@ from zygopin.paths import XACRO_PATH as XACRO_PATH
 from zygopin.perch import PerchPlan as PerchPlan
 from zygopin.perch import plan_perch as plan_perch
 from zygopin.presets import preset_names as preset_names
+from zygopin.reach import FingerReach as FingerReach
+from zygopin.reach import finger_reach as finger_reach
+from zygopin.reach_inverse import InverseReach as InverseReach
+from zygopin.reach_inverse import inverse_reach as inverse_reach
+from zygopin.reach_scene import export_reach_scene as export_reach_scene
 from zygopin.scene import export_scene as export_scene
+from zygopin.validation import ReachValidation as ReachValidation
+from zygopin.validation import ValidationRow as ValidationRow
+from zygopin.validation import validate_foot as validate_foot
 
 __version__: str

@@ -9,7 +9,7 @@ import numpy as np
 from meshcat.geometry import Geometry
 from numpy.typing import ArrayLike, NDArray
 
-from zygopin.solids import Frustum, Paint, Ring, Solid, Sphere
+from zygopin.solids import Cloud, Frustum, Paint, Ring, Solid, Sphere
 from zygopin.viewer import Recorder
 
 DECIMALS = 6
@@ -134,6 +134,21 @@ class Canvas:
         z_to_x = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
         self._transform(f"{path}/face", _shifted(z_to_x, 0.0))
         self.place(path, segment_pose(*ends))
+
+    def cloud(
+        self, path: str, points: NDArray[np.float64], size: float, paint: Paint
+    ) -> None:
+        """Draw points as dots.
+
+        Args:
+            path: Its name in the scene's tree.
+            points: The points [m], shape (N, 3).
+            size: Width of a dot [m].
+            paint: Its look; dots are opaque.
+        """
+        units = np.round((points - self.origin) / self.unit, DECIMALS) + 0.0
+        dots = Cloud(path, units.astype(np.float32), self._length(size), paint)
+        self._at(path).set_object(dots)
 
     def place(self, path: str, T_world_solid: NDArray[np.float64]) -> None:
         """Put what a path holds at a pose.

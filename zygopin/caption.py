@@ -10,6 +10,7 @@ from html import escape
 import numpy as np
 
 from zygopin.branch import yaw_and_pitch
+from zygopin.foot import Foot
 from zygopin.grasp import GraspReport
 
 SIGNIFICANT = 4
@@ -54,14 +55,16 @@ def verdict_words(report: GraspReport) -> str:
     return f"{held}, not feasible: {why}"
 
 
-def caption(report: GraspReport, title: str, colour: str, legend: Iterable[Key]) -> str:
+def caption(
+    report: GraspReport, title: str, colour: str, colours: Iterable[Key]
+) -> str:
     """The caption as HTML, every text escaped.
 
     Args:
         report: Of one configuration.
         title: The scene's title, as plain text.
         colour: The verdict's CSS colour.
-        legend: What the colours stand for.
+        colours: What the colours stand for.
 
     Returns:
         HTML.
@@ -71,10 +74,10 @@ def caption(report: GraspReport, title: str, colour: str, legend: Iterable[Key])
         (
             f"<h1>{escape(title)}</h1>",
             f'<p class="verdict" style="border-color: {escape(colour)}">{words}</p>',
-            _section("Contact", contact_rows(report)),
-            _legend(legend),
-            _section("Foot", foot_rows(report)),
-            _section("Branch", branch_rows(report)),
+            section("Contact", contact_rows(report)),
+            legend(colours),
+            section("Foot", foot_rows(report.foot)),
+            section("Branch", branch_rows(report)),
         )
     )
 
@@ -90,7 +93,7 @@ def contact_rows(report: GraspReport) -> dict[str, str]:
     """
     least = float(np.min(report.clearance))
     nearest = "Largest penetration" if np.any(report.penetrating) else "Least clearance"
-    lengths = _Lengths(report.foot.size)
+    lengths = Lengths(report.foot.size)
     return {
         "Tangent phalanges": f"{np.sum(report.tangent)} of {report.foot.phalanx_count}",
         "Touching phalanges": str(np.sum(report.touching)),
@@ -103,22 +106,21 @@ def contact_rows(report: GraspReport) -> dict[str, str]:
     }
 
 
-def foot_rows(report: GraspReport) -> dict[str, str]:
-    """The foot's parameters, name by value.
+def foot_rows(foot: Foot) -> dict[str, str]:
+    """A foot's parameters, name by value.
 
     Args:
-        report: Of one configuration.
+        foot: The foot.
 
     Returns:
         Plain texts.
     """
-    foot = report.foot
-    lengths = _Lengths(foot.size)
+    lengths = Lengths(foot.size)
     return {
         "Name": foot.name,
         "Scaling factor ρ": f"{foot.rho:.6g}",
-        "Largest angle ω": _degrees(foot.omega),
-        "Splay Ω": _degrees(foot.splay),
+        "Largest angle ω": degrees(foot.omega),
+        "Splay Ω": degrees(foot.splay),
         "Scale": lengths(foot.scale),
         "Thickness": lengths(foot.thickness),
     }
@@ -134,13 +136,13 @@ def branch_rows(report: GraspReport) -> dict[str, str]:
         Plain texts.
     """
     branch = report.branch
-    lengths = _Lengths(report.foot.size)
+    lengths = Lengths(report.foot.size)
     yaw, pitch = yaw_and_pitch(branch.axis)
     return {
         "Radius": lengths(float(branch.radius)),
         "Height": lengths(float(branch.centre[2])),
-        "Yaw": _degrees(yaw),
-        "Pitch": _degrees(pitch),
+        "Yaw": degrees(yaw),
+        "Pitch": degrees(pitch),
         "Length": "infinite"
         if branch.length is None
         else lengths(float(branch.length)),
@@ -148,12 +150,24 @@ def branch_rows(report: GraspReport) -> dict[str, str]:
 
 
 @dataclass(frozen=True)
-class _Lengths:
-    """Lengths in millimetres, down to the same place for a foot of some size [m]."""
+class Lengths:
+    """Lengths in millimetres, down to the same place for a foot of some size.
+
+    Attributes:
+        size: The foot's size [m].
+    """
 
     size: float
 
     def __call__(self, metres: float) -> str:
+        """A length as a text.
+
+        Args:
+            metres: The length [m].
+
+        Returns:
+            Millimetres with their unit, or `none` where it is not finite.
+        """
         if not math.isfinite(metres):
             return NONE
         leading = math.floor(math.log10(self.size * 1e3))
@@ -165,7 +179,15 @@ def _ratio(value: float | np.ndarray) -> str:
     return _fixed(float(value), 4) if np.isfinite(value) else NONE
 
 
-def _degrees(radians: float) -> str:
+def degrees(radians: float) -> str:
+    """An angle as a text.
+
+    Args:
+        radians: The angle [rad].
+
+    Returns:
+        Degrees with their sign.
+    """
     return f"{_fixed(math.degrees(radians), 2)}°"
 
 
@@ -174,8 +196,16 @@ def _fixed(value: float, decimals: int) -> str:
     return f"{round(value, decimals) + 0.0:.{decimals}f}".replace("-", "−")
 
 
-def _section(name: str, rows: dict[str, str]) -> str:
-    """A heading and a table under it."""
+def section(name: str, rows: dict[str, str]) -> str:
+    """A heading and a table under it.
+
+    Args:
+        name: The heading, as plain text.
+        rows: Names and values, as plain text.
+
+    Returns:
+        HTML.
+    """
     body = "".join(
         f'<tr><th scope="row">{escape(key)}</th><td>{escape(value)}</td></tr>'
         for key, value in rows.items()
@@ -183,8 +213,15 @@ def _section(name: str, rows: dict[str, str]) -> str:
     return f"<section><h2>{escape(name)}</h2><table>{body}</table></section>"
 
 
-def _legend(entries: Iterable[Key]) -> str:
-    """The list of colours."""
+def legend(entries: Iterable[Key]) -> str:
+    """The list of colours.
+
+    Args:
+        entries: What they stand for.
+
+    Returns:
+        HTML.
+    """
     swatch = '<li><span class="swatch" style="background: {}"></span>{}</li>'
     items = "".join(swatch.format(escape(e.colour), escape(e.meaning)) for e in entries)
     return f"<section><h2>Colours</h2><ul>{items}</ul></section>"

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from zygopin.cli_reach import reach, validate
 from zygopin.options import (
     MM,
     POSITIVE_MM,
@@ -20,6 +20,7 @@ from zygopin.options import (
     make_foot,
     read_controls,
 )
+from zygopin.terminal import print_table, waiting
 
 if TYPE_CHECKING:  # commands load what they use, so that --help is quick
     from zygopin.grasp import GraspReport
@@ -40,6 +41,10 @@ def main() -> None:
     Lengths are in millimetres and angles in degrees, as each option's name says;
     x points forward, y left, z up, and the base of the foot is the origin.
     """
+
+
+main.add_command(reach)
+main.add_command(validate)
 
 
 @main.command()
@@ -93,7 +98,7 @@ def perch(
     level = max(abs(math.cos(pose["pitch"])), 1e-9)
     start = -2 * (radius + foot.size) / level if height is None else height
     branch = make_branch(radius, start, **pose)
-    with _waiting("planning", quiet=as_json):
+    with waiting("planning", quiet=as_json):
         plan = plan_perch(foot, branch, find_height=search)
     _show(plan.report, html, as_json, plan.reason)
     context.exit(0 if plan.grasping else 1)
@@ -188,7 +193,7 @@ def _print_report(report: GraspReport, difference: float, html: Path | None) -> 
 
     click.echo(f"{report.foot.name}, branch: {output.branch_line(report.branch)}")
     headings = ("finger", "phalanx", "control", "clearance [mm]", "t", "contact")
-    _print_table(headings, output.report_rows(report), "lrrrrl")
+    print_table(headings, output.report_rows(report), "lrrrrl")
     for line in output.verdict_lines(report, difference):
         click.echo(line)
     if html is not None:
@@ -213,7 +218,7 @@ def _list_presets() -> None:
         for name, foot in feet.items()
     ]
     headings = ("preset", "ρ", "ω [°]", "s [mm]", "skin [mm]", "what it is")
-    _print_table(headings, rows, "lrrrrl")
+    print_table(headings, rows, "lrrrrl")
 
 
 def _show_preset(name: str, values: dict[str, Any]) -> None:
@@ -225,7 +230,7 @@ def _show_preset(name: str, values: dict[str, Any]) -> None:
         for field in values
         if field not in ("description", "sources", "name")
     ]
-    _print_table(("field", "value", "source"), rows, "lll")
+    print_table(("field", "value", "source"), rows, "lll")
 
 
 def _field_text(value: float | list[dict[str, Any]]) -> str:
@@ -233,27 +238,3 @@ def _field_text(value: float | list[dict[str, Any]]) -> str:
     if not isinstance(value, list):
         return f"{value:.6g}"
     return "\n".join(f"{each['name']}: {each['phalanges']} phalanges" for each in value)
-
-
-def _print_table(
-    headings: Sequence[str], rows: Sequence[tuple[str, ...]], align: str
-) -> None:
-    """A table that fits the terminal."""
-    from rich import box
-    from rich.console import Console
-    from rich.table import Table
-
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for heading, side in zip(headings, align, strict=True):
-        table.add_column(heading, justify="left" if side == "l" else "right")
-    for row in rows:
-        table.add_row(*row)
-    Console(markup=False, highlight=False).print(table)
-
-
-def _waiting(what: str, *, quiet: bool) -> Any:
-    """A progress display on stderr while a search runs, on a terminal only."""
-    from rich.console import Console
-
-    console = Console(stderr=True, quiet=quiet)
-    return console.status(what)

@@ -99,6 +99,22 @@ class DescriptionError(ZygopinError):
         self.remedy = remedy
 
 
+class MissingExtraError(ZygopinError, ImportError):
+    """A package that only some functions need is not installed.
+
+    Attributes:
+        package: The package.
+        extra: The extra of zygopin that installs it.
+    """
+
+    def __init__(self, package: str, extra: str) -> None:
+        super().__init__(
+            f"{package} is not installed: pip install 'zygopin[{extra}]' adds it"
+        )
+        self.package = package
+        self.extra = extra
+
+
 def _one_line(text: str) -> str:
     """Text with its white space folded, so that a message stays on one line."""
     return " ".join(text.split())

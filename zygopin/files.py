@@ -1,18 +1,36 @@
-"""Writing files whole or not at all."""
+"""Reading files, and writing them whole or not at all."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 from zygopin.errors import FileError
 
 
-def write_text(path: Path | str, text: str) -> Path:
-    """Write a text file: beside its place first, then renamed into it.
+def read_text(path: Path | str) -> str:
+    """Read a text file.
 
-    Whoever reads the path finds the old content or the new one, never a part. A
-    symbolic link is followed.
+    Args:
+        path: The file, in UTF-8.
+
+    Returns:
+        What it holds.
+
+    Raises:
+        FileError: It cannot be read, or is not UTF-8.
+    """
+    try:
+        return Path(path).read_text(encoding="utf-8")
+    except (OSError, ValueError) as error:
+        problem = getattr(error, "strerror", None) or str(error)
+        remedy = "name a text file that can be read"
+        raise FileError(path, f"cannot be read: {problem}", remedy) from error
+
+
+def write_text(path: Path | str, text: str) -> Path:
+    """Write a text file whole or not at all.
 
     Args:
         path: The file; missing parent folders are created.
@@ -24,10 +42,35 @@ def write_text(path: Path | str, text: str) -> Path:
     Raises:
         FileError: The path is no regular file, or its folder cannot be written.
     """
+    return _write(path, lambda: text.encode("utf-8"))
+
+
+def write_bytes(path: Path | str, content: bytes) -> Path:
+    """Write a file whole or not at all.
+
+    Args:
+        path: The file; missing parent folders are created.
+        content: What it shall hold.
+
+    Returns:
+        The path.
+
+    Raises:
+        FileError: The path is no regular file, or its folder cannot be written.
+    """
+    return _write(path, lambda: content)
+
+
+def _write(path: Path | str, content: Callable[[], bytes]) -> Path:
+    """Write beside the place first, then rename into it.
+
+    Whoever reads the path finds the old content or the new one, never a part. A
+    symbolic link is followed.
+    """
     try:
         target = _target(path)
         target.parent.mkdir(parents=True, exist_ok=True)
-        _replace(target, text)
+        _replace(target, content())
     except (OSError, ValueError) as error:
         problem = getattr(error, "strerror", None) or str(error)
         remedy = "name a file in a folder that can be written"
@@ -43,12 +86,12 @@ def _target(path: Path | str) -> Path:
     return target
 
 
-def _replace(target: Path, text: str) -> None:
+def _replace(target: Path, content: bytes) -> None:
     """Write beside the target and rename; leave nothing beside it on failure."""
     part = target.with_name(f".{os.urandom(8).hex()}.part")
     try:
-        with part.open("x", encoding="utf-8", newline="\n") as file:
-            file.write(text)
+        with part.open("xb") as file:
+            file.write(content)
         part.replace(target)
     finally:
         part.unlink(missing_ok=True)

@@ -56,6 +56,35 @@ class Quantity(click.ParamType):  # type: ignore[type-arg,unused-ignore]
         return number * self.factor
 
 
+class Several(click.ParamType):  # type: ignore[type-arg,unused-ignore]
+    """Values separated by commas.
+
+    Args:
+        each: The type of each of them.
+    """
+
+    def __init__(self, each: Quantity) -> None:
+        self.each = each
+        self.name = f"{each.name}, …"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[Any, ...]:
+        """Parse a text.
+
+        Args:
+            value: What was typed.
+            param: The option.
+            ctx: The command's context.
+
+        Returns:
+            The values.
+        """
+        if isinstance(value, tuple):
+            return value
+        return tuple(self.each.convert(part, param, ctx) for part in value.split(","))
+
+
 MM = Quantity("millimetres", 1e-3)
 POSITIVE_MM = Quantity("millimetres", 1e-3, positive=True)
 DEGREES = Quantity("degrees", math.pi / 180)
@@ -73,6 +102,9 @@ _ALLOWED = {
 """What each overridden field is called and allowed to be on the command line."""
 
 
+OMEGA = click.option("--omega-deg", "omega", type=DEGREES, help="Joint limit ω.")
+
+
 def foot_options(command: Command) -> Command:
     """Add the options that choose a foot.
 
@@ -82,22 +114,42 @@ def foot_options(command: Command) -> Command:
     Returns:
         The same function, decorated.
     """
+    return foot_options_with(OMEGA)(command)
+
+
+def foot_options_with(
+    omega: Callable[[Command], Command],
+) -> Callable[[Command], Command]:
+    """Add the options that choose a foot, with another one for its joint limit.
+
+    Args:
+        omega: The option `--omega-deg` as the command wants it.
+
+    Returns:
+        What decorates the command's function.
+    """
     file = click.Path(path_type=Path)
-    for option in (
-        click.option("--thickness-mm", "thickness", type=MM, help="Skin radius."),
-        click.option("--scale-mm", "scale", type=POSITIVE_MM, help="Length scale s."),
-        click.option("--splay-deg", "splay", type=DEGREES, help="Splay angle Ω."),
-        click.option("--omega-deg", "omega", type=DEGREES, help="Joint limit ω."),
-        click.option("--rho", type=float, help="Scaling factor ρ > 1."),
-        click.option("--foot", "foot_file", type=file, help="YAML file of a foot."),
-        click.option(
-            "--preset",
-            metavar="NAME",
-            help="A shipped foot; see `zygopin presets`.  [default: parrot]",
-        ),
-    ):
-        command = option(command)
-    return command
+
+    def decorated(command: Command) -> Command:
+        for option in (
+            click.option("--thickness-mm", "thickness", type=MM, help="Skin radius."),
+            click.option(
+                "--scale-mm", "scale", type=POSITIVE_MM, help="Length scale s."
+            ),
+            click.option("--splay-deg", "splay", type=DEGREES, help="Splay angle Ω."),
+            omega,
+            click.option("--rho", type=float, help="Scaling factor ρ > 1."),
+            click.option("--foot", "foot_file", type=file, help="YAML file of a foot."),
+            click.option(
+                "--preset",
+                metavar="NAME",
+                help="A shipped foot; see `zygopin presets`.  [default: parrot]",
+            ),
+        ):
+            command = option(command)
+        return command
+
+    return decorated
 
 
 def branch_options(command: Command) -> Command:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import meshcat.geometry as shapes
+import numpy as np
+from numpy.typing import NDArray
 
 FRONT_SIDE = 0
 """The viewer's number for drawing a surface from outside only."""
@@ -35,6 +37,12 @@ class Paint:
         """This paint with its colour's channels multiplied by a factor up to 1."""
         channels = (int((self.colour >> shift & 0xFF) * factor) for shift in (16, 8, 0))
         red, green, blue = channels
+        return Paint(red << 16 | green << 8 | blue, self.opacity, self.on_top)
+
+    def tinted(self, share: float) -> Paint:
+        """This paint with a share of white, from 0 to 1, mixed into its colour."""
+        channels = (self.colour >> shift & 0xFF for shift in (16, 8, 0))
+        red, green, blue = (round(c + share * (255 - c)) for c in channels)
         return Paint(red << 16 | green << 8 | blue, self.opacity, self.on_top)
 
     @property
@@ -93,6 +101,27 @@ class Ring(shapes.Geometry):  # type: ignore[misc]
         return {"uuid": self.uuid, "type": "RingGeometry", **shape}
 
 
+class Dots(shapes.PointsMaterial):  # type: ignore[misc]
+    """Points of one size and one colour."""
+
+    def lower(self, object_data: dict[str, Any]) -> dict[str, Any]:
+        """The material as the viewer reads it."""
+        data: dict[str, Any] = super().lower(object_data)
+        return {**data, "vertexColors": False}
+
+
+class Cloud(shapes.Points):  # type: ignore[misc]
+    """A cloud of points, named after its path."""
+
+    def __init__(
+        self, path: str, points: NDArray[np.float32], size: float, paint: Paint
+    ) -> None:
+        geometry = shapes.PointsGeometry(points.T)
+        material = Dots(size, paint.colour)
+        super().__init__(geometry, material)
+        _name_parts(path, self, geometry, material)
+
+
 class Solid(shapes.Mesh):  # type: ignore[misc]
     """A mesh named after its path, with its place in the order of drawing."""
 
@@ -100,11 +129,16 @@ class Solid(shapes.Mesh):  # type: ignore[misc]
         material = paint.material()
         super().__init__(geometry, material)
         self.order = int(paint.on_top)
-        for part in (self, geometry, material):
-            part.uuid = str(uuid.uuid5(_NAMES, f"{path}:{type(part).__name__}"))
+        _name_parts(path, self, geometry, material)
 
     def lower(self) -> dict[str, Any]:
         """The mesh as the viewer reads it."""
         data: dict[str, Any] = super().lower()
         data["object"]["renderOrder"] = self.order
         return data
+
+
+def _name_parts(path: str, *parts: shapes.SceneElement) -> None:
+    """Give parts names that follow from their path."""
+    for part in parts:
+        part.uuid = str(uuid.uuid5(_NAMES, f"{path}:{type(part).__name__}"))

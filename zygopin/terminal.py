@@ -1,0 +1,72 @@
+"""What commands show on a terminal: tables, and signs that work is under way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, TypeVar
+
+if TYPE_CHECKING:  # loaded where it is used, so that --help is quick
+    from rich.status import Status
+
+Item = TypeVar("Item")
+
+
+def print_table(
+    headings: Sequence[str], rows: Sequence[tuple[str, ...]], align: str
+) -> None:
+    """Print a table that fits the terminal.
+
+    Args:
+        headings: The columns' headings.
+        rows: Their texts, row by row.
+        align: `l` or `r` for each column.
+    """
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for heading, side in zip(headings, align, strict=True):
+        table.add_column(heading, justify="left" if side == "l" else "right")
+    for row in rows:
+        table.add_row(*row)
+    Console(markup=False, highlight=False).print(table)
+
+
+def waiting(what: str, *, quiet: bool) -> Status:
+    """A sign on stderr while something runs, on a terminal only.
+
+    Args:
+        what: What runs.
+        quiet: Whether to show nothing at all.
+
+    Returns:
+        A context that shows the sign.
+    """
+    from rich.console import Console
+
+    return Console(stderr=True, quiet=quiet).status(what)
+
+
+def progress(
+    items: Iterable[Item], what: str, total: int, *, quiet: bool
+) -> Iterable[Item]:
+    """A bar on stderr that grows with each item that is done, on a terminal only.
+
+    Args:
+        items: What is worked through.
+        what: What runs.
+        total: How many items there are.
+        quiet: Whether to show nothing at all.
+
+    Yields:
+        The items.
+    """
+    from rich.console import Console
+    from rich.progress import track
+
+    console = Console(stderr=True, quiet=quiet)
+    hidden = quiet or not console.is_terminal
+    yield from track(
+        items, what, total, console=console, transient=True, disable=hidden
+    )
