@@ -91,7 +91,10 @@ def test_check_of_the_straight_foot_is_no_grasp():
     result = run("check", *options)
     assert result.returncode == 1
     assert "stable no, grasping no, feasible yes" in result.stdout
-    assert result.stderr == ""
+    assert result.stderr == (
+        "zygopin: no feasible grasp: no toe reaches the branch, "
+        "the nearest stays 10.47 mm away\n"
+    )
 
 
 def test_tables_fit_eighty_columns():
@@ -174,6 +177,9 @@ def test_bad_input_is_one_line_and_status_2(arguments, words):
 @pytest.mark.parametrize(
     ("content", "words"),
     [
+        ("[[0, 0], [1, 1]]", "give 14 numbers"),
+        (json.dumps([[0.5] * 14]), "holds many poses"),
+        ('{"foot": {"name": "owl"}, "controls": []}', "of another foot"),
         ("[1, 2", "not JSON"),
         ("3", "holds no controls"),
         ('{"finger1": [0, 0]}', "controls[finger2] = None is not given"),
@@ -211,6 +217,36 @@ def test_a_bad_foot_file_is_one_line(content, words, tmp_path):
     assert len(result.stderr.splitlines()) == 1
     assert str(file) in result.stderr
     assert words in result.stderr
+
+
+def test_controls_may_be_json_in_place():
+    where = ("--radius-mm", "8", "--height-mm", "-20")
+    result = run("check", *where, "--controls", json.dumps([0] * 14))
+    assert result.returncode == 1
+    assert "stable no" in result.stdout
+
+
+def test_output_that_cannot_be_written_is_one_line_and_status_2():
+    with open("/dev/full", "w", encoding="utf-8") as full:
+        result = subprocess.run(
+            [sys.executable, "-m", "zygopin", "presets"],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert result.returncode == 2
+    assert result.stderr.startswith("zygopin: the output cannot be written: No space")
+    assert len(result.stderr.splitlines()) == 1
+
+
+def test_a_reader_that_leaves_early_is_no_verdict():
+    command = f"{sys.executable} -m zygopin presets owl | true; echo ${{PIPESTATUS[0]}}"
+    result = subprocess.run(
+        ["bash", "-c", command], capture_output=True, text=True, check=True
+    )
+    assert result.stdout.strip() in ("141", "0")
+    assert result.stderr == ""
 
 
 def test_urdf_writes_three_files_and_lists_them(tmp_path):

@@ -111,7 +111,7 @@ def perch(
 @click.option(
     "--controls",
     required=True,
-    help="Comma-separated numbers in [0, 1], or a JSON file.",
+    help="One number in [0, 1] for each phalanx, separated by commas; or JSON.",
 )
 @click.option(
     "--reading",
@@ -120,7 +120,12 @@ def perch(
     show_default=True,
     help="Which scalar product decides on a grasp.",
 )
-@click.option("--tolerance-mm", "tolerance", type=POSITIVE_MM, help="Of a contact.")
+@click.option(
+    "--tolerance-mm",
+    "tolerance",
+    type=POSITIVE_MM,
+    help="Largest gap that is a contact.  [default: 1e-6 of the foot]",
+)
 @_HTML
 @_JSON
 @click.pass_context
@@ -136,16 +141,21 @@ def check(
 ) -> None:
     """Say whether given controls are stable on a branch, grasp it, are feasible.
 
-    Exit status 0: grasping; 1: not; 2: bad input.
+    Controls go finger by finger, from base to tip: 0 is straight, 1 closed. A document
+    that `perch --json` printed will do.
+
+    Exit status 0: grasping; 1: not, with the reason; 2: bad input.
     """
     from zygopin.grasp import Criteria, check_grasp
+    from zygopin.reason import why_not
 
     names = ("radius", "height", "yaw", "pitch", "length")
     branch = make_branch(**{name: options.pop(name) for name in names})
     criteria = Criteria(reading, tolerance)
     foot = make_foot(**options)
-    report = check_grasp(foot, read_controls(controls), branch, criteria=criteria)
-    _show(report, html, as_json)
+    values = read_controls(controls, foot)
+    report = check_grasp(foot, values, branch, criteria=criteria)
+    _show(report, html, as_json, why_not(report))
     context.exit(0 if report.grasping else 1)
 
 
@@ -166,7 +176,7 @@ def presets(name: str | None, as_json: bool) -> None:
 
 
 def _show(
-    report: GraspReport, html: Path | None, as_json: bool, reason: str | None = None
+    report: GraspReport, html: Path | None, as_json: bool, reason: str | None
 ) -> None:
     """Check a report with FCL, write its scene, print it."""
     from zygopin import output

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import errno
+import io
 import json
 import math
+import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -89,6 +93,11 @@ MM = Quantity("millimetres", 1e-3)
 POSITIVE_MM = Quantity("millimetres", 1e-3, positive=True)
 DEGREES = Quantity("degrees", math.pi / 180)
 
+BROKEN_PIPE = 141
+"""Exit status of a program whose reader has gone, as shells count it."""
+
+_CONTROLS = "give numbers separated by commas, or a JSON file"
+
 STEEP = 1e-3
 """Cosine of the pitch below which a branch through the z axis is as good as on it."""
 
@@ -139,7 +148,12 @@ def foot_options_with(
             click.option("--splay-deg", "splay", type=DEGREES, help="Splay angle Ω."),
             omega,
             click.option("--rho", type=float, help="Scaling factor ρ > 1."),
-            click.option("--foot", "foot_file", type=file, help="YAML file of a foot."),
+            click.option(
+                "--foot",
+                "foot_file",
+                type=file,
+                help="A foot of your own, YAML.",
+            ),
             click.option(
                 "--preset",
                 metavar="NAME",
@@ -162,8 +176,14 @@ def branch_options(command: Command) -> Command:
         The same function, decorated.
     """
     for option in (
-        click.option("--length-mm", "length", type=POSITIVE_MM, help="Else infinite."),
-        click.option("--pitch-deg", "pitch", type=DEGREES, default=0, help="Slope."),
+        click.option("--length-mm", "length", type=POSITIVE_MM, help="Or endless."),
+        click.option(
+            "--pitch-deg",
+            "pitch",
+            type=DEGREES,
+            default=0,
+            help="Rise to the left.",
+        ),
         click.option(
             "--yaw-deg",
             "yaw",
@@ -251,34 +271,62 @@ def make_branch(
         ) from error
 
 
-def read_controls(text: str) -> Any:
-    """Controls from the command line.
+def read_controls(text: str, foot: Foot) -> Any:
+    """Controls of one pose from the command line.
 
     Args:
-        text: Numbers separated by commas, or the path of a JSON file: a list, a
+        text: Numbers separated by commas, JSON, or the path of a JSON file: a list, a
             mapping by finger, or a document of `check` or `perch`.
+        foot: The foot that they are for.
 
     Returns:
-        A list of numbers, or a mapping of finger names to lists.
+        The controls, shape (P,).
 
     Raises:
-        FileError: Neither numbers nor a readable JSON file.
+        FileError: No readable JSON, or controls of another foot or of many poses.
+        ParameterError: A control is out of range, or missing.
     """
-    try:
-        return [float(number) for number in text.split(",")]
-    except ValueError:
-        pass
-    remedy = "give numbers separated by commas, or a JSON file"
-    try:
-        content = json.loads(Path(text).read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError) as error:
-        problem = getattr(error, "strerror", None) or f"not JSON: {error}"
-        raise FileError(text, problem, remedy) from error
+    from zygopin.kinematics import as_controls
+
+    shown = text if len(text) <= 40 else f"{text[:37]}..."
+    content = _parsed_controls(text, shown)
     if isinstance(content, dict):
+        stored = content.get("foot")
+        if stored is not None and stored != foot.to_mapping():
+            remedy = "choose that foot, with --preset or --foot"
+            raise FileError(shown, "holds controls of another foot", remedy)
         content = content.get("controls", content)
     if not isinstance(content, (list, dict)):
-        raise FileError(text, "holds no controls", remedy)
-    return content
+        raise FileError(shown, "holds no controls", _CONTROLS)
+    controls = as_controls(foot, content)
+    if controls.ndim != 1:
+        raise FileError(shown, "holds many poses", "give the controls of one")
+    return controls
+
+
+def _parsed_controls(text: str, shown: str) -> Any:
+    """What a text of controls holds: numbers, JSON, or the JSON in a file."""
+    words = [word.strip() for word in text.split(",")]
+    if any(words) and all(map(_is_number, words)):
+        return [float(word) for word in words]
+    inline = text.lstrip()[:1] in ("[", "{")
+    if not inline and ("," in text or not text.strip()):
+        raise FileError(repr(shown), "holds no controls", _CONTROLS)
+    try:
+        content = text if inline else Path(text).read_text(encoding="utf-8-sig")
+        return json.loads(content)
+    except (OSError, ValueError, RecursionError) as error:
+        problem = getattr(error, "strerror", None) or f"not JSON: {error}"
+        raise FileError(shown, problem, _CONTROLS) from error
+
+
+def _is_number(word: str) -> bool:
+    """Whether a word is a number."""
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
 
 
 class OneLineErrors(click.Group):
@@ -295,6 +343,9 @@ class OneLineErrors(click.Group):
             Never: raises SystemExit with the status.
         """
         kwargs["standalone_mode"] = False
+        for stream in (sys.stdout, sys.stderr):
+            if isinstance(stream, io.TextIOWrapper):
+                stream.reconfigure(errors="replace")  # ρ, on a terminal without it
         try:
             status = super().main(*args, **kwargs)
         except click.ClickException as error:
@@ -307,6 +358,28 @@ class OneLineErrors(click.Group):
             _complain(str(error))
             status = error.exit_code
         raise SystemExit(status if isinstance(status, int) else 0)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run a command, and see that what it prints arrives.
+
+        Args:
+            ctx: The group's context.
+
+        Returns:
+            What the command returns.
+        """
+        try:
+            result = super().invoke(ctx)
+            sys.stdout.flush()
+        except FileError:
+            raise
+        except OSError as error:
+            # What is still buffered would complain again when Python exits.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            if error.errno != errno.EPIPE:
+                _complain(f"the output cannot be written: {error.strerror}")
+            ctx.exit(2 if error.errno != errno.EPIPE else BROKEN_PIPE)
+        return result
 
 
 def _complain(message: str) -> None:

@@ -78,7 +78,7 @@ def branch_line(branch: Branch) -> str:
     line = (
         f"radius {float(branch.radius) * MILLIMETRES:.6g} mm, "
         f"height {branch.centre[2] * MILLIMETRES:.6g} mm, "
-        f"yaw {yaw:.4g}°, pitch {pitch:.4g}°"
+        f"yaw {round(yaw, 4) + 0.0:g}°, pitch {round(pitch, 4) + 0.0:g}°"
     )
     if branch.length is None:
         return line
@@ -99,9 +99,9 @@ def report_rows(report: GraspReport) -> list[tuple[str, ...]]:
         (
             foot.fingers[foot.finger_of_phalanx[k]].name,
             str(foot.rank_of_phalanx[k]),
-            f"{report.controls[k]:.4f}",
-            f"{report.clearance[k] * MILLIMETRES:.4f}",
-            f"{report.t[k]:.3f}",
+            f"{report.controls[k]:.7f}",
+            _signed(report.clearance[k] * MILLIMETRES, 4),
+            _signed(report.t[k], 3),
             contact_word(report, k),
         )
         for k in range(foot.phalanx_count)
@@ -125,11 +125,12 @@ def verdict_lines(report: GraspReport, difference: float) -> list[str]:
     products = (report.scalar_product, report.scalar_product_base_to_tip)
     section, base_to_tip = (_shown(product) for product in products)
     apart = float(report.finger_clearance) * MILLIMETRES
+    between = f"{apart:.4g} mm" if math.isfinite(apart) else "none: one finger"
     return [
         verdicts,
         f"scalar product {section} (section; a grasp has ≤ 0), "
         f"{base_to_tip} (base to tip)",
-        f"least distance between two fingers {apart:.4g} mm",
+        f"least distance between two fingers {between}",
         f"engines (exact, FCL) differ by at most {difference:.1e} m",
     ]
 
@@ -168,3 +169,11 @@ def _shown(value: ArrayLike) -> str:
     """A scalar product for a terminal."""
     number = _plain(value)
     return "none" if number is None else f"{number:.3f}"
+
+
+def _signed(value: float, decimals: int) -> str:
+    """A number in few characters, without a minus sign on zero."""
+    rounded = round(float(value), decimals) + 0.0
+    return (
+        f"{rounded:.{decimals}f}" if abs(rounded) < 1e3 else f"{rounded:.{decimals}g}"
+    )

@@ -5,10 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
+import click
+
 if TYPE_CHECKING:  # loaded where it is used, so that --help is quick
     from rich.status import Status
 
 Item = TypeVar("Item")
+
+NARROWEST = 72
+"""Columns that a table takes at the least: its numbers stay whole."""
 
 
 def print_table(
@@ -27,10 +32,15 @@ def print_table(
 
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for heading, side in zip(headings, align, strict=True):
-        table.add_column(heading, justify="left" if side == "l" else "right")
+        left = side == "l"
+        table.add_column(heading, justify="left" if left else "right", no_wrap=not left)
     for row in rows:
         table.add_row(*row)
-    Console(markup=False, highlight=False).print(table)
+    console = Console(markup=False, highlight=False)
+    console.width = max(console.width, NARROWEST)  # rather wrapped than cut off
+    with console.capture() as text:
+        console.print(table)
+    click.echo(text.get(), nl=False)
 
 
 def waiting(what: str, *, quiet: bool) -> Status:
