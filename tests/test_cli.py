@@ -141,7 +141,10 @@ def test_a_branch_that_cannot_be_grasped_gets_a_reason_and_status_1(options, wor
         (("perch", "--radius-mm", "8", "--pitch-deg", "90"), "too steep"),
         ((*GRASP, "--preset", "parot"), "did you mean 'parrot'?"),
         ((*GRASP, "--preset", "owl", "--foot", "x"), "exclude each other"),
-        ((*GRASP, "--foot", "no-such.yaml"), "no-such.yaml: No such file"),
+        (
+            (*GRASP, "--foot", "no-such.yaml"),
+            "no-such.yaml: cannot be read",
+        ),
         ((*GRASP, "--rho", "1"), "--rho = 1 is not a number above 1"),
         ((*GRASP, "--rho", "x"), "'x' is not a valid float"),
         ((*GRASP, "--omega-deg", "180"), "--omega-deg = 180 is not in (0, 360)"),
@@ -158,7 +161,7 @@ def test_a_branch_that_cannot_be_grasped_gets_a_reason_and_status_1(options, wor
         ),
         (
             ("check", *GRASP[1:], "--height-mm", "-20", "--controls", "none.json"),
-            "none.json: No such file",
+            "none.json: cannot be read: No such file",
         ),
         (("presets", "stork"), "unknown preset 'stork'"),
         (("urdf", "-o", "/dev/null/x"), "cannot be written"),

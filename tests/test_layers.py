@@ -55,6 +55,8 @@ LAYERS = (
     "output",
     "reach_output",
     "options",
+    "given_controls",
+    "command_group",
     "terminal",
     "cli_reach",
     "cli",

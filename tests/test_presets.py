@@ -67,6 +67,6 @@ def test_a_malformed_file_is_one_line_with_its_name(tmp_path, content, message):
 
 @pytest.mark.parametrize("name", ["none.yaml", ".", "a\0b"])
 def test_an_unreadable_file_is_one_line_with_a_remedy(tmp_path, name):
-    with pytest.raises(FileError, match="name a readable YAML file") as caught:
+    with pytest.raises(FileError, match="name a text file that can be read") as caught:
         read_parameters(f"{tmp_path}/{name}")
     assert "\n" not in str(caught.value)

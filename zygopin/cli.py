@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from zygopin.cli_reach import reach, validate
+from zygopin.command_group import OneLineErrors
+from zygopin.given_controls import read_controls
 from zygopin.options import (
     MM,
     POSITIVE_MM,
-    OneLineErrors,
     branch_options,
     foot_options,
     make_branch,
     make_foot,
-    read_controls,
 )
 from zygopin.terminal import print_table, waiting
 

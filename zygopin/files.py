@@ -23,6 +23,11 @@ def read_text(path: Path | str) -> str:
     """
     try:
         return Path(path).read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        remedy = "name a text file"
+        raise FileError(
+            path, "cannot be read: not a UTF-8 text file", remedy
+        ) from error
     except (OSError, ValueError) as error:
         problem = getattr(error, "strerror", None) or str(error)
         remedy = "name a text file that can be read"

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import errno
-import io
-import json
 import math
-import os
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from zygopin.errors import FileError, ParameterError, ZygopinError
+from zygopin.errors import ParameterError
 
 if TYPE_CHECKING:  # commands load what they use, so that --help is quick
     from zygopin.branch import Branch
@@ -92,11 +87,6 @@ class Several(click.ParamType):  # type: ignore[type-arg,unused-ignore]
 MM = Quantity("millimetres", 1e-3)
 POSITIVE_MM = Quantity("millimetres", 1e-3, positive=True)
 DEGREES = Quantity("degrees", math.pi / 180)
-
-BROKEN_PIPE = 141
-"""Exit status of a program whose reader has gone, as shells count it."""
-
-_CONTROLS = "give numbers separated by commas, or a JSON file"
 
 STEEP = 1e-3
 """Cosine of the pitch below which a branch through the z axis is as good as on it."""
@@ -269,119 +259,3 @@ def make_branch(
             f"--height-mm = {height * 1e3:.6g} puts the foot's base inside the branch: "
             f"give at most {-radius / level * 1e3:.6g}, a branch below the base."
         ) from error
-
-
-def read_controls(text: str, foot: Foot) -> Any:
-    """Controls of one pose from the command line.
-
-    Args:
-        text: Numbers separated by commas, JSON, or the path of a JSON file: a list, a
-            mapping by finger, or a document of `check` or `perch`.
-        foot: The foot that they are for.
-
-    Returns:
-        The controls, shape (P,).
-
-    Raises:
-        FileError: No readable JSON, or controls of another foot or of many poses.
-        ParameterError: A control is out of range, or missing.
-    """
-    from zygopin.kinematics import as_controls
-
-    shown = text if len(text) <= 40 else f"{text[:37]}..."
-    content = _parsed_controls(text, shown)
-    if isinstance(content, dict):
-        stored = content.get("foot")
-        if stored is not None and stored != foot.to_mapping():
-            remedy = "choose that foot, with --preset or --foot"
-            raise FileError(shown, "holds controls of another foot", remedy)
-        content = content.get("controls", content)
-    if not isinstance(content, (list, dict)):
-        raise FileError(shown, "holds no controls", _CONTROLS)
-    controls = as_controls(foot, content)
-    if controls.ndim != 1:
-        raise FileError(shown, "holds many poses", "give the controls of one")
-    return controls
-
-
-def _parsed_controls(text: str, shown: str) -> Any:
-    """What a text of controls holds: numbers, JSON, or the JSON in a file."""
-    words = [word.strip() for word in text.split(",")]
-    if any(words) and all(map(_is_number, words)):
-        return [float(word) for word in words]
-    inline = text.lstrip()[:1] in ("[", "{")
-    if not inline and ("," in text or not text.strip()):
-        raise FileError(repr(shown), "holds no controls", _CONTROLS)
-    try:
-        content = text if inline else Path(text).read_text(encoding="utf-8-sig")
-        return json.loads(content)
-    except (OSError, ValueError, RecursionError) as error:
-        problem = getattr(error, "strerror", None) or f"not JSON: {error}"
-        raise FileError(shown, problem, _CONTROLS) from error
-
-
-def _is_number(word: str) -> bool:
-    """Whether a word is a number."""
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True
-
-
-class OneLineErrors(click.Group):
-    """A command group whose errors are one line on stderr and an exit status."""
-
-    def main(self, *args: Any, **kwargs: Any) -> Any:
-        """Run the command line and exit.
-
-        Args:
-            *args: As for `click.Group.main`.
-            **kwargs: As for `click.Group.main`.
-
-        Returns:
-            Never: raises SystemExit with the status.
-        """
-        kwargs["standalone_mode"] = False
-        for stream in (sys.stdout, sys.stderr):
-            if isinstance(stream, io.TextIOWrapper):
-                stream.reconfigure(errors="replace")  # ρ, on a terminal without it
-        try:
-            status = super().main(*args, **kwargs)
-        except click.ClickException as error:
-            _complain(error.format_message())
-            status = error.exit_code
-        except click.Abort:
-            _complain("interrupted")
-            status = 130
-        except ZygopinError as error:
-            _complain(str(error))
-            status = error.exit_code
-        raise SystemExit(status if isinstance(status, int) else 0)
-
-    def invoke(self, ctx: click.Context) -> Any:
-        """Run a command, and see that what it prints arrives.
-
-        Args:
-            ctx: The group's context.
-
-        Returns:
-            What the command returns.
-        """
-        try:
-            result = super().invoke(ctx)
-            sys.stdout.flush()
-        except FileError:
-            raise
-        except OSError as error:
-            # What is still buffered would complain again when Python exits.
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-            if error.errno != errno.EPIPE:
-                _complain(f"the output cannot be written: {error.strerror}")
-            ctx.exit(2 if error.errno != errno.EPIPE else BROKEN_PIPE)
-        return result
-
-
-def _complain(message: str) -> None:
-    """One line on stderr."""
-    click.echo(f"zygopin: {' '.join(message.split())}", err=True)

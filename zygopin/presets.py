@@ -9,6 +9,7 @@ from typing import Any
 import yaml
 
 from zygopin.errors import FileError, UnknownNameError
+from zygopin.files import read_text
 from zygopin.paths import PRESETS_PATH
 
 
@@ -52,12 +53,7 @@ def read_parameters(path: Path | str) -> dict[str, Any]:
         FileError: The file cannot be read, is not YAML, or is not one mapping.
     """
     try:
-        text = Path(path).read_text(encoding="utf-8")
-    except (OSError, ValueError) as error:  # not UTF-8, or no path: a null in it
-        problem = getattr(error, "strerror", None) or "not a UTF-8 text file"
-        raise FileError(path, problem, "name a readable YAML file") from error
-    try:
-        content = yaml.safe_load(text)
+        content = yaml.safe_load(read_text(path))
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         raise FileError(path, f"not YAML: {error}", "mend the syntax") from error
     if not isinstance(content, Mapping):

@@ -137,7 +137,10 @@ def verdict_paint(report: GraspReport) -> Paint:
 
 
 def _check_single(report: GraspReport) -> None:
-    """The report is of one configuration."""
+    """The report is one, and of one configuration."""
+    if not isinstance(report, GraspReport):
+        remedy = "pass what check_grasp returned, or a plan's report"
+        raise ParameterError("report", type(report).__name__, "a GraspReport", remedy)
     shape = report.clearance.shape
     if len(shape) != 1:
         remedy = "pass the controls of one configuration to check_grasp"
