@@ -50,7 +50,7 @@ def test_a_misspelt_preset_gets_a_suggestion():
         (b"rho: 2020-13-45", "not YAML: month must be"),
         (b"rho: !!python/object:os.system x", "not YAML: could not determine"),
         (b"[" * 1500, "not YAML"),
-        (b"\xff\xfe\x00", "not a UTF-8 text file"),
+        (b"\xff\xfe\x00", "cannot be read: not a UTF-8 text file"),
         (b"", "holds NoneType, not a mapping"),
         (b"- 1", "holds list, not a mapping"),
         (b"text", "holds str, not a mapping"),
