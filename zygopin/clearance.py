@@ -64,6 +64,8 @@ def branch_clearance(bones: Floats, radii: Floats, branch: Branch) -> Clearance:
     t = np.clip(t_line, 0.0, 1.0)
     radial, axial = pose.radial(t), pose.axial(t)
     gap = norm(radial) - pose.radius
+    # The capped cylinder lies inside the infinite one, so where the infinite one's
+    # nearest point belongs to both, it is the nearest of both.
     lateral = np.abs(axial) - pose.half <= np.minimum(gap, 0.0)
     normal = _radial_normal(radial, pose)
     if not lateral.all():
@@ -71,6 +73,7 @@ def branch_clearance(bones: Floats, radii: Floats, branch: Branch) -> Clearance:
         part = pose.select(ends)
         t_line[ends], gap[ends], normal[ends], lateral[ends] = _end_clearance(part)
         t = np.clip(t_line, 0.0, 1.0)
+    # From the bone's point back along the normal, so that point and normal agree.
     skin = pose.start + t[..., None] * pose.bone
     point = pose.centre + skin - gap[..., None] * normal
     return Clearance(gap - radii, t_line, point, normal, lateral)
@@ -239,6 +242,7 @@ def _solid_distance(pose: _Relative, t: Floats) -> tuple[Floats, Floats, Any]:
     endward = np.sign(axial)[..., None] * pose.axis
     side, end = norm(radial) - pose.radius, np.abs(axial) - pose.half
     rim = (side > 0) & (end > 0)
+    # Beyond both, the nearest point is on the rim; elsewhere the farther face decides.
     corner = side[..., None] * outward + end[..., None] * endward
     gap = np.where(rim, np.hypot(side, end), np.maximum(side, end))
     flat = np.where((side >= end)[..., None], outward, endward)

@@ -137,6 +137,7 @@ def _at_side(rows: _Rows, single: bool) -> Clearance:
         single: Whether all rows have the same branch: one object then serves all.
     """
     phalanges = _capsules(rows.bone, rows.skin)
+    # Objects cost more than queries: one branch is one object, however many rows.
     some = rows.select(slice(0, 1)) if single else rows
     repeat = len(phalanges) if single else 1
     stem = some.stem()
@@ -200,6 +201,7 @@ def _quaternions(directions: Floats) -> Floats:
     """Rotations (w, x, y, z) that take the z axis to unit directions, (n, 4)."""
     x, y, z = directions.T
     flat = np.zeros_like(z)
+    # Two forms of one rotation, each far from its own singular direction.
     rising = np.stack([1 + z, -y, x, flat], axis=1)
     falling = np.stack([x, flat, 1 - z, y], axis=1)
     turn = np.where((z >= 0)[:, None], rising, falling)

@@ -155,6 +155,7 @@ class Foot:
         _check_fields(type(self), changes)
         if "splay" not in changes or "fingers" in changes:
             return dataclasses.replace(self, **changes)
+        # Validated first: a splay out of range must not reach the azimuths.
         new = dataclasses.replace(self, **changes)
         turned = (_splayed(finger, new.splay - self.splay) for finger in self.fingers)
         return dataclasses.replace(new, fingers=tuple(turned))

@@ -314,6 +314,7 @@ def _finger_clearance(foot: Foot, bones: Floats, engine: Engine) -> Floats:
 
 def _least_product(foot: Foot, vectors: Floats, tangent: Booleans) -> Floats:
     """Least scalar product over tangent phalanges of opposable fingers, else NaN."""
+    # All products at once: cheaper than to gather the vectors of each pair first.
     finger = foot.finger_of_phalanx
     opposed = np.zeros((foot.phalanx_count,) * 2, dtype=bool)
     for one, other in foot.opposable_pairs:

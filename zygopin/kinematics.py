@@ -87,6 +87,7 @@ def forward_kinematics(
             bones[..., part, place, 0] = junction.real * np.cos(azimuth)
             bones[..., part, place, 1] = junction.real * np.sin(azimuth)
             bones[..., part, place, 2] = junction.imag
+        # The difference of sums leaves rounding where the base is exactly zero.
         bones[..., part.start, 0, :] = 0.0
     return bones
 

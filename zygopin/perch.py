@@ -160,6 +160,7 @@ def _best_combination(foot: Foot, poses: list[FingerPoses]) -> tuple[Indices, fl
             total -= PENALTY * _colliding(foot, poses, earlier, finger)[row]
             if (earlier, finger) in foot.opposable_pairs:
                 grasping |= _opposed(poses[earlier], new)[row]
+        # Stable, so that equals keep their order and a plan is always the same.
         ranked = np.argsort(-(total + GRASP * grasping), axis=None, kind="stable")
         row, pose = np.unravel_index(ranked[:BEAM], total.shape)
         combos = np.concatenate([combos[row], pose[:, None]], axis=1)
@@ -211,6 +212,7 @@ def _best_height(foot: Foot, branch: Branch) -> Branch:
             _best_combination(foot, [p.take(p.place == place) for p in poses])[1]
             for place in range(HEIGHTS)
         ]
+        # Of equally good heights the nearest: the foot sits rather than hangs.
         best = float(gaps[np.argmax(worths - gaps / foot.size)])
         width = (high - low) / (HEIGHTS - 1)
         low, high = max(best - width, 0.0), best + width
@@ -231,6 +233,7 @@ def _highest(foot: Foot, branch: Branch) -> float:
         raise ParameterError("branch.axis", branch.axis, "across the z axis", remedy)
     reach = float(branch.radius) + float(foot.radii.max())
     half = float(rise @ level) / square
+    # Negative where the branch passes beside the base at every height.
     inside = half**2 - (float(level @ level) - reach**2) / square
     return -half - float(np.sqrt(max(inside, 0.0)))
 

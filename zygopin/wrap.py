@@ -242,6 +242,7 @@ def _closed(
         value = _next_clearance(chain, old.take(active), rank, new)
         done = np.abs(value) <= enough[active]
         result[active[done]], found[active[done]] = new[done], True
+        # Halving the value of an end that stays is what makes the secant superlinear.
         crossed = np.sign(value) != np.sign(at_b)
         a, at_a = np.where(crossed, b, a), np.where(crossed, at_b, at_a / 2)
         b, at_b = new, value
@@ -283,6 +284,7 @@ def _wrap(
     base = dot(centre, axis)[:, None] * axis - centre
     base = base / np.linalg.norm(base, axis=1, keepdims=True)
     flexion = np.cross((0.0, 0.0, 1.0), forward)
+    # Seen along the flexion's own axis, every finger wraps the same way round.
     sense = np.where(axis @ flexion >= 0, 1.0, -1.0)[:, None]
     side = np.cross(sense * axis, base)
     angle = np.arctan2(dot(normals, side[:, None]), dot(normals, base[:, None]))
@@ -308,6 +310,7 @@ def _varied(chain: _Chain, poses: FingerPoses) -> FingerPoses:
             *bins[::-1],
         )
     )
+    # Sorted by bin and then by merit, the first of each bin is its best.
     codes = np.stack(bins, axis=1)[order]
     first = np.any(codes != np.roll(codes, 1, axis=0), axis=1)
     first[:1] = True
