@@ -287,7 +287,7 @@ def test_thickness_only_turns_the_radius_into_radius_plus_skin(bone, branch, ski
 
 @given(SEGMENTS, st.booleans().flatmap(branches), st.integers(0, 2**32 - 1))
 def test_turning_bones_and_branch_together_changes_nothing(bone, branch, seed):
-    turn = Rotation.random(rng=np.random.default_rng(seed)).as_matrix()
+    turn = Rotation.random(None, np.random.default_rng(seed)).as_matrix()
     moved = Branch(
         branch.radius, turn @ branch.centre, turn @ branch.axis, branch.length
     )
