@@ -76,7 +76,8 @@ def progress(
     from rich.progress import track
 
     console = Console(stderr=True, quiet=quiet)
-    hidden = quiet or not console.is_terminal
-    yield from track(
-        items, what, total, console=console, transient=True, disable=hidden
-    )
+    if quiet or not console.is_terminal:
+        # Even a disabled bar of older rich leaves an empty line.
+        yield from items
+        return
+    yield from track(items, what, total, console=console, transient=True)
