@@ -15,14 +15,14 @@ from zygopin.trajectory import EventKind, StrikeEvent, StrikeTrajectory
 
 EVENT_WORDS: dict[EventKind, str] = {
     "engaged": "first contact",
-    "stopped": "phalanx stopped",
-    "locked": "tendon locked",
-    "released": "tendon released",
+    "stopped": "stopped",
+    "locked": "locked",
+    "released": "released",
 }
 
 READING_WORDS = {
-    "paper": "paper: phalanges pass through",
-    "contact": "contact: phalanges stop",
+    "paper": "paper (toes pass)",
+    "contact": "contact (toes stop)",
 }
 
 SHOWN_FOR = 7.0
@@ -142,8 +142,8 @@ def controls(trajectory: StrikeTrajectory, phases: Sequence[Phase]) -> str:
         '<button id="play" type="button" aria-keyshortcuts="Space">Play</button>'
         '<output id="mode" for="time" aria-label="Mode"></output>'
         '<span id="clock"></span>'
-        f'<label>Speed <select id="speed">{_speeds(end - start)}</select></label>'
-        "</div>\n</section>"
+        f'<select id="speed" aria-label="Speed">{_speeds(end - start)}</select></div>'
+        "\n</section>"
     )
 
 

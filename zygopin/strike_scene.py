@@ -39,7 +39,7 @@ from zygopin.viewer import Player, Recorder, page, set_stage
 MOST_FRAMES = 400
 """Instants that a page holds, unless more of them matter: a quarter of a megabyte."""
 
-CLOSEST = 0.45
+CLOSEST = 0.36
 """The final foot's longer side over the frame's height: as much of the flight is in
 the frame as leaves the foot this large."""
 
@@ -54,7 +54,7 @@ MODE_PAINTS: dict[Mode, Paint] = {
 """White letters can be read on each."""
 
 CONTACT = STABLE
-FADED = 0.55
+FADED = 0.4
 """Share of white in the colour of a talon's way."""
 
 
@@ -277,10 +277,6 @@ def _legend(trajectory: StrikeTrajectory, arm: float) -> list[Key]:
     """What each colour stands for."""
     fingers = trajectory.foot.fingers
     pairs = [(finger_paint(i), finger.name) for i, finger in enumerate(fingers)]
-    noun = obstacle_noun(trajectory.obstacle)
-    pairs += [
-        (obstacle_paint(trajectory.obstacle), noun),
-        (CONTACT, "contact"),
-        *((paint, f"mode {mode}") for mode, paint in MODE_PAINTS.items()),
-    ]
+    obstacle = trajectory.obstacle
+    pairs += [(obstacle_paint(obstacle), obstacle_noun(obstacle)), (CONTACT, "contact")]
     return keys([*pairs, *direction_pairs(arm)])
