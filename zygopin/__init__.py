@@ -37,6 +37,8 @@ _HOMES = {
     "reach_inverse": ("InverseReach", "inverse_reach"),
     "reach_scene": ("export_reach_scene",),
     "scene": ("export_scene",),
+    "strike_scene": ("export_strike",),
+    "trajectory": ("StrikeEvent", "StrikeTrajectory"),
     "validation": ("ReachValidation", "ValidationRow", "validate_foot"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
@@ -65,6 +67,8 @@ __all__ = [
     "PerchPlan",
     "ReachValidation",
     "ReachableSet",
+    "StrikeEvent",
+    "StrikeTrajectory",
     "UnknownNameError",
     "ValidationRow",
     "ZygopinError",
@@ -76,6 +80,7 @@ __all__ = [
     "directed_distance",
     "export_reach_scene",
     "export_scene",
+    "export_strike",
     "find_word",
     "finger_reach",
     "forward_kinematics",

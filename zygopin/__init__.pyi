@@ -46,6 +46,9 @@ from zygopin.reach_inverse import InverseReach as InverseReach
 from zygopin.reach_inverse import inverse_reach as inverse_reach
 from zygopin.reach_scene import export_reach_scene as export_reach_scene
 from zygopin.scene import export_scene as export_scene
+from zygopin.strike_scene import export_strike as export_strike
+from zygopin.trajectory import StrikeEvent as StrikeEvent
+from zygopin.trajectory import StrikeTrajectory as StrikeTrajectory
 from zygopin.validation import ReachValidation as ReachValidation
 from zygopin.validation import ValidationRow as ValidationRow
 from zygopin.validation import validate_foot as validate_foot

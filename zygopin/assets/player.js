@@ -30,6 +30,7 @@
   let now = first;
   let playing = false;
   let ticked = null;
+  let awaited = 0;
 
   // The last of some ascending times that is not after a time, or the first.
   function latest(ascending, time) {
@@ -88,23 +89,20 @@
   }
 
   function tick(instant) {
-    if (!playing) return;
     const passed = ticked === null ? 0 : (instant - ticked) / 1e3;
     ticked = instant;
     show(now + Math.min(Math.max(passed, 0), LONGEST_TICK) * Number(speed.value));
     if (now >= last) setPlaying(false);
-    else requestAnimationFrame(tick);
+    else awaited = requestAnimationFrame(tick);
   }
 
   function setPlaying(wanted) {
     if (wanted && now >= last) show(first);
-    const starts = wanted && !playing;
     playing = wanted;
     button.textContent = playing ? "Pause" : now >= last ? "Replay" : "Play";
-    if (starts) {
-      ticked = null;
-      requestAnimationFrame(tick);
-    }
+    cancelAnimationFrame(awaited);
+    ticked = null;
+    if (playing) awaited = requestAnimationFrame(tick);
   }
 
   function jumpTo(time) {
