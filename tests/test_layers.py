@@ -49,7 +49,7 @@ LAYERS = (
     "solids",
     "viewer",
     "canvas",
-    "motion",
+    "playback",
     "drawing",
     "caption",
     "obstacle_drawing",

@@ -9,8 +9,8 @@ from html import escape
 import numpy as np
 
 from zygopin.caption import Key, Lengths, foot_rows, legend, section
-from zygopin.motion import Phase, clock_decimals, page_time
 from zygopin.obstacle_drawing import obstacle_noun, obstacle_rows
+from zygopin.playback import Phase, clock_decimals, page_time
 from zygopin.trajectory import EventKind, StrikeEvent, StrikeTrajectory
 
 EVENT_WORDS: dict[EventKind, str] = {

@@ -22,7 +22,6 @@ from zygopin.drawing import (
 )
 from zygopin.errors import ParameterError
 from zygopin.files import write_text
-from zygopin.motion import Motion, Phase, Track
 from zygopin.obstacle import Capsule
 from zygopin.obstacle_drawing import (
     draw_obstacle,
@@ -30,6 +29,7 @@ from zygopin.obstacle_drawing import (
     obstacle_noun,
     obstacle_paint,
 )
+from zygopin.playback import Motion, Phase, Track
 from zygopin.scene import direction_pairs, keys
 from zygopin.solids import Paint
 from zygopin.strike_caption import controls, strike_caption
