@@ -298,16 +298,27 @@ def _verdicts(
     }
 
 
-def _finger_clearance(foot: Foot, bones: Floats, engine: Engine) -> Floats:
-    """Least distance between the skins of two fingers; infinite for one finger.
+def finger_pairs(foot: Foot) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Pairs of phalanges of different fingers that can meet.
 
     First phalanges share the base junction, so they are not held against each other.
+
+    Args:
+        foot: The foot.
+
+    Returns:
+        Indices of the first and of the second phalanges, shape (M,) each.
     """
     i, j = np.triu_indices(foot.phalanx_count, 1)
     finger, rank = foot.finger_of_phalanx, foot.rank_of_phalanx
     apart = (finger[i] != finger[j]) & (rank[i] + rank[j] > 2)
-    pairs = (i[apart], j[apart])
-    if not apart.any():
+    return i[apart], j[apart]
+
+
+def _finger_clearance(foot: Foot, bones: Floats, engine: Engine) -> Floats:
+    """Least distance between the skins of two fingers; infinite for one finger."""
+    pairs = finger_pairs(foot)
+    if not len(pairs[0]):
         return np.full(bones.shape[:-3], np.inf)
     return np.asarray(engine.skin_distance(bones, foot.radii, pairs).min(axis=-1))
 

@@ -14,9 +14,9 @@ from zygopin.obstacle import Obstacle
 Mode = Literal["free", "closing", "locked"]
 """A mode of the hybrid automaton (MODEL.md, section 6)."""
 
-EventKind = Literal["engaged", "stopped", "locked", "released"]
-"""The guard was met; a phalanx met the obstacle while closing; the tendon locked;
-it was released."""
+EventKind = Literal["engaged", "stopped", "crossed", "locked", "released"]
+"""The guard was met; a phalanx met the obstacle, or another toe, while closing; the
+tendon locked; it was released."""
 
 
 @dataclass(frozen=True, eq=False)
