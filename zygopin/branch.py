@@ -84,7 +84,7 @@ class Branch:
     ) -> None:
         centre = checks.array("branch.centre", centre, last=3)
         near = np.abs(centre) <= LARGEST
-        remedy = "give metres, in the foot's frame"
+        remedy = "give metres, in the world frame"
         checks.require("branch.centre", centre, near, f"within {LARGEST:g} m", remedy)
         self._set("radius", _positive("branch.radius", radius))
         self._set("centre", _read_only(centre))
@@ -93,7 +93,6 @@ class Branch:
             length = _positive("branch.length", length)
         self._set("length", length)
         checks.common_batch("radius, centre, axis and length", *self._shapes())
-        _check_base(self)
 
     def _set(self, field: str, value: object) -> None:
         object.__setattr__(self, field, value)
@@ -197,7 +196,7 @@ class Branch:
             The new branch.
 
         Raises:
-            ParameterError: The centre is not finite, or puts the base inside.
+            ParameterError: The centre is not finite.
         """
         return Branch(self.radius, centre, self.axis, self.length)
 
@@ -232,8 +231,15 @@ def _read_only(values: NDArray[np.float64]) -> NDArray[np.float64]:
     return values
 
 
-def _check_base(branch: Branch) -> None:
-    """The base, the origin of the foot, lies outside the solid."""
+def check_base(branch: Branch) -> None:
+    """The base of a foot that stands at the origin lies outside the solid.
+
+    Args:
+        branch: The branch, or a batch, in the foot's frame.
+
+    Raises:
+        ParameterError: The branch holds the origin inside it.
+    """
     along = np.abs(np.einsum("...i,...i->...", branch.centre, branch.axis))
     distance, along, half, radius = np.broadcast_arrays(
         branch.base_distance(), along, branch.half_length, branch.radius
