@@ -187,14 +187,34 @@ def _placed(shape: object, frame: Floats, centre: Floats) -> fcl.CollisionObject
 def _nearest(
     first: Solids, second: Solids, *, signed: bool
 ) -> tuple[Floats, Floats, Floats]:
-    """Distances of pairs of solids and the nearest points of both."""
-    request = fcl.DistanceRequest(True, signed)
+    """Distances of pairs of solids and the nearest points of both.
+
+    Where solids overlap and a sign is wanted, the depth is that of a contact: FCL's
+    own signed distance is wrong at a touch and ends the process for thin boxes.
+    """
+    request = fcl.DistanceRequest(True)
     table = np.empty((len(first), 7))
     for row, one, other in zip(table, first, second, strict=True):
         result = fcl.DistanceResult()
         row[0] = fcl.distance(one, other, request, result)
         row[1:4], row[4:7] = result.nearest_points
+        if signed and row[0] <= 0:
+            row[:] = _contact(one, other, row)
     return table[:, 0], table[:, 1:4], table[:, 4:7]
+
+
+def _contact(
+    one: fcl.CollisionObject, other: fcl.CollisionObject, row: Floats
+) -> Floats:
+    """Minus the depth of an overlap and the deepest points of both, shape (7,)."""
+    result = fcl.CollisionResult()
+    request = fcl.CollisionRequest(num_max_contacts=1, enable_contact=True)
+    if not fcl.collide(one, other, request, result):
+        return np.concatenate([[0.0], row[1:]])
+    contact = result.contacts[0]
+    middle, depth = np.asarray(contact.pos), contact.penetration_depth
+    half = depth / 2 * np.asarray(contact.normal)
+    return np.concatenate([[-depth], middle + half, middle - half])
 
 
 def _quaternions(directions: Floats) -> Floats:

@@ -137,7 +137,7 @@ class GraspReport:
         """Largest difference of clearances, the report's check by another engine.
 
         A phalanx that is inside a finite branch near its end has two depths: that of
-        its deepest point (exact engine) and that of the shortest way out (FCL).
+        its deepest point (exact engine) and that of a way out (FCL).
 
         Args:
             other: A report on the same controls and branch.
