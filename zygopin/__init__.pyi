@@ -32,6 +32,10 @@ from zygopin.inverse import find_word as find_word
 from zygopin.inverse import nearest_reachable as nearest_reachable
 from zygopin.kinematics import forward_kinematics as forward_kinematics
 from zygopin.model import FootModel as FootModel
+from zygopin.obstacle import Box as Box
+from zygopin.obstacle import Capsule as Capsule
+from zygopin.obstacle import ConvexMesh as ConvexMesh
+from zygopin.obstacle import Sphere as Sphere
 from zygopin.paths import PACKAGE_PATH as PACKAGE_PATH
 from zygopin.paths import PRESETS_PATH as PRESETS_PATH
 from zygopin.paths import SRDF_PATH as SRDF_PATH
@@ -46,6 +50,7 @@ from zygopin.reach_inverse import InverseReach as InverseReach
 from zygopin.reach_inverse import inverse_reach as inverse_reach
 from zygopin.reach_scene import export_reach_scene as export_reach_scene
 from zygopin.scene import export_scene as export_scene
+from zygopin.solid_clearance import obstacle_clearance as obstacle_clearance
 from zygopin.validation import ReachValidation as ReachValidation
 from zygopin.validation import ValidationRow as ValidationRow
 from zygopin.validation import validate_foot as validate_foot

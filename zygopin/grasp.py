@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin import checks
-from zygopin.branch import Branch
+from zygopin.branch import Branch, check_base
 from zygopin.clearance import Clearance, Floats
 from zygopin.engine import Engine, EngineName, make_engine
 from zygopin.errors import ParameterError, UnknownNameError
@@ -137,7 +137,7 @@ class GraspReport:
         """Largest difference of clearances, the report's check by another engine.
 
         A phalanx that is inside a finite branch near its end has two depths: that of
-        its deepest point (exact engine) and that of the shortest way out (FCL).
+        its deepest point (exact engine) and that of a way out (FCL).
 
         Args:
             other: A report on the same controls and branch.
@@ -173,7 +173,8 @@ def check_grasp(
         The report, batched.
 
     Raises:
-        ParameterError: A control is outside [0, 1], or shapes do not fit.
+        ParameterError: A control is outside [0, 1], shapes do not fit, or the branch
+            holds the foot's base.
         UnknownNameError: A finger, engine or reading does not exist.
     """
     values = as_controls(foot, controls)
@@ -207,8 +208,10 @@ def check_size(foot: Foot, branch: Branch) -> None:
         branch: The branch, or a batch.
 
     Raises:
-        ParameterError: It is beyond `FARTHEST` or thinner than `THINNEST`.
+        ParameterError: It holds the foot's base inside it, is beyond `FARTHEST` or
+            thinner than `THINNEST`.
     """
+    check_base(branch)
     radius = np.asarray(branch.radius)
     far, thin = FARTHEST * foot.size, THINNEST * foot.size
     extent = radius + np.linalg.norm(branch.centre, axis=-1)
