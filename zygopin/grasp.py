@@ -290,15 +290,29 @@ def _verdicts(
     section = _least_product(foot, near.normal, contacts.tangent)
     base_to_tip = _least_product(foot, lines, contacts.tangent)
     decisive = section if criteria.reading == "section" else base_to_tip
-    # Bare bones that cross have no depth: their distance is zero, not negative.
-    least = -tolerance if foot.thickness > 0 else tolerance
     return {
         "stable": np.isfinite(decisive),
         "grasping": np.nan_to_num(decisive, nan=np.inf) <= PARAMETER_SLACK,
-        "feasible": ~contacts.penetrating.any(axis=-1) & (apart >= least),
+        "feasible": ~contacts.penetrating.any(axis=-1)
+        & (apart >= least_gap(foot, tolerance)),
         "scalar_product": section,
         "scalar_product_base_to_tip": base_to_tip,
     }
+
+
+def least_gap(foot: Foot, tolerance: float) -> float:
+    """Least distance between fingers that do not collide.
+
+    Bare bones that cross have no depth: their distance is zero, not negative.
+
+    Args:
+        foot: The foot.
+        tolerance: Contact tolerance [m].
+
+    Returns:
+        The distance of their skins [m].
+    """
+    return -tolerance if foot.thickness > 0 else tolerance
 
 
 def finger_pairs(foot: Foot) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin import checks
-from zygopin.advancement import first_reached
+from zygopin.advancement import Look, first_reached, safe_step
 from zygopin.clearance import Clearance
 from zygopin.closing import Closing
 from zygopin.engine import EngineName
@@ -170,17 +170,18 @@ class TendonFoot:
         self.armed = self._distances(self.time) > self.tolerance
         self._enter(StrikeEvent("released", self.time))
 
-    def near(self, bones: Floats) -> Clearance:
+    def near(self, bones: Floats, radii: Floats | None = None) -> Clearance:
         """Clearance of bones to the obstacle.
 
         Args:
-            bones: Bones in the world's frame [m], shape (…, P, 2, 3).
+            bones: Bones in the world's frame [m], shape (…, M, 2, 3).
+            radii: Their skins' radii [m], shape (M,); None: the foot's.
 
         Returns:
-            The record of all phalanges.
+            The record of all of them.
         """
-        engine = self.contact.engine
-        return obstacle_clearance(bones, self.foot.radii, self.obstacle, engine=engine)
+        skins, engine = self.foot.radii if radii is None else radii, self.contact.engine
+        return obstacle_clearance(bones, skins, self.obstacle, engine=engine)
 
     def _fly(self, until: float) -> None:
         """FREE, until a sensing phalanx meets the obstacle."""
@@ -189,18 +190,15 @@ class TendonFoot:
         while self.time < until and not met.any():
             span = self.time, self._stop(start, until)
             levels = np.where(self.senses & self.armed, self.tolerance, -np.inf)
-            self.time, distances = first_reached(
-                self._distances,
-                self.flow.speeds(*span),
-                span,
-                levels,
-                np.minimum(levels, 0.0),
-            )
+            look = self._look(np.minimum(levels, 0.0), self.flow.speeds(*span))
+            self.time, distances = first_reached(look, span, levels)
             met = distances <= levels
             self.armed |= distances > 2 * self.tolerance
         self._end_phase(start, self.flow.stances)
         if met.any():
-            self._enter(self._engagement(int(np.argmin(np.where(met, distances, np.inf)))))
+            self._enter(
+                self._engagement(int(np.argmin(np.where(met, distances, np.inf))))
+            )
 
     def _close(self, _: float) -> None:
         """CLOSING, for the time T; a closing that has begun is finished."""
@@ -232,7 +230,8 @@ class TendonFoot:
         stance = _single(self.phases[-1].stances(np.array([start])))
         self.time = until
         self._end_phase(
-            start, lambda times: _held(stance, np.tile(stance.controls, (len(times), 1)))
+            start,
+            lambda times: _held(stance, np.tile(stance.controls, (len(times), 1))),
         )
 
     def _enter(self, event: StrikeEvent) -> None:
@@ -247,6 +246,15 @@ class TendonFoot:
     def _distances(self, time: float) -> Floats:
         """Clearances of the free foot at an instant [m], shape (P,)."""
         return self.near(self.flow.stances(np.array([time])).bones[0]).distance
+
+    def _look(self, floors: Floats, speeds: Floats) -> Look:
+        """Clearances of the free foot at an instant, and a step that misses nothing."""
+
+        def look(time: float) -> tuple[Floats, float]:
+            distances = self._distances(time)
+            return distances, safe_step(distances, floors, speeds)
+
+        return look
 
     def _stop(self, start: float, until: float) -> float:
         """Where a step of the flight ends at the latest [s]."""
@@ -278,7 +286,7 @@ def _senses(foot: Foot, closing: Closing, contact: Contact) -> NDArray[np.bool_]
     """Which phalanges engage the tendon, shape (P,)."""
     default = "first" if closing.reading == "paper" else "any"
     if (contact.sensing or default) == "first":
-        return foot.rank_of_phalanx == 1
+        return np.asarray(foot.rank_of_phalanx == 1)
     return np.ones(foot.phalanx_count, bool)
 
 

@@ -13,14 +13,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin.advancement import first_reached
+from zygopin.advancement import Look, first_reached, safe_step
 from zygopin.clearance import Clearance, skin_distance
-from zygopin.grasp import finger_pairs
+from zygopin.grasp import finger_pairs, least_gap
 from zygopin.stance import Stance, levers
 
 Floats = NDArray[np.float64]
-Near = Callable[[Floats], Clearance]
-"""Clearance of bones of shape (…, P, 2, 3) to the obstacle."""
+Near = Callable[[Floats, Floats], Clearance]
+"""Clearance to the obstacle of bones, shape (…, M, 2, 3), with skins of radii (M,)."""
+
+CLOSE = 0.25
+"""Clearance over a phalanx's length below which it is looked at piece by piece."""
+
+CUTS = np.append(0.0, 2.0 ** np.arange(-11.0, 1.0))
+"""Where it is cut: a phalanx that starts on the obstacle moves little there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,11 +72,15 @@ class ToeStops:
         self.stance, self.near = stance, near
         self.pairs = finger_pairs(foot)
         self.levers = foot.omega * (1 - stance.controls) * levers(foot)
+        self.turning = foot.omega * (1 - stance.controls) * (levers(foot) > 0)
         self.stopped_at = np.full(foot.phalanx_count, np.inf)
         self.stops: list[Stop] = []
         # A toe may sink in by one such depth with each phalanx that stops.
         deepest = 2 * int(foot.rank_of_phalanx.max()) + 2
         self.depth = tolerance / (2 * deepest)
+        gap = max(least_gap(foot, 2 * tolerance), 0.0)
+        self.contact = np.zeros(foot.phalanx_count + len(self.pairs[0]))
+        self.contact[foot.phalanx_count :] = gap
 
     def controls(self, progress: Floats) -> Floats:
         """Controls at a progress, shape (…) to shape (…, P)."""
@@ -86,13 +96,11 @@ class ToeStops:
         """
         progress = 0.0
         distances = self.distances(progress)
-        level = np.minimum(distances, 0.0) - self.depth
+        level = np.minimum(distances, self.contact) - self.depth
         while progress < end:
-            rates = self.rates()
-            wanted = np.where(rates > 0, level, -np.inf)
-            progress, distances = first_reached(
-                self.distances, rates, (progress, end), wanted, wanted - self.depth / 2
-            )
+            wanted = np.where(self.rates() > 0, level, -np.inf)
+            look = self.look(wanted - self.depth / 2)
+            progress, distances = first_reached(look, (progress, end), wanted)
             met = distances <= wanted
             if not met.any():
                 return
@@ -109,7 +117,41 @@ class ToeStops:
         """Clearances to the obstacle, then between pairs of toes, shape (P + M,)."""
         bones = self.bones(progress)
         between = skin_distance(bones, self.stance.foot.radii, self.pairs)
-        return np.concatenate([self.near(bones).distance, between])
+        return np.concatenate(
+            [self.near(bones, self.stance.foot.radii).distance, between]
+        )
+
+    def look(self, floors: Floats) -> Look:
+        """Clearances at a progress, and a step that misses nothing."""
+        rates, count = self.rates(), len(self.stopped_at)
+        length = self.stance.foot.lengths
+
+        def look(progress: float) -> tuple[Floats, float]:
+            distances = self.distances(progress)
+            close = (rates[:count] > 0) & (distances[:count] < CLOSE * length)
+            far = np.append(~close, np.ones(len(rates) - count, bool))
+            step = safe_step(distances[far], floors[far], rates[far])
+            pieces = self.step_in_pieces(progress, np.flatnonzero(close), floors)
+            return distances, min(step, pieces)
+
+        return look
+
+    def step_in_pieces(
+        self, progress: float, phalanges: NDArray[np.intp], floors: Floats
+    ) -> float:
+        """The safe step of some phalanges, whose points near the joint move less."""
+        foot, moving = self.stance.foot, np.isinf(self.stopped_at)
+        bones = self.bones(progress)[phalanges]
+        along = (bones[:, 1] - bones[:, 0])[:, None]
+        cuts = bones[:, :1] + CUTS[:, None] * along
+        pieces = np.stack([cuts[:, :-1], cuts[:, 1:]], axis=-2).reshape(-1, 2, 3)
+        count = len(CUTS) - 1
+        near = self.near(pieces, np.repeat(foot.radii[phalanges], count))
+        turning = self.turning[phalanges] @ moving * foot.lengths[phalanges]
+        far_end = self.levers[phalanges] @ moving
+        rates = far_end[:, None] - np.outer(turning, 1 - CUTS[1:])
+        under = np.repeat(floors[phalanges], count)
+        return safe_step(near.distance, under, rates.ravel())
 
     def rates(self) -> Floats:
         """Bounds on how fast these change with the progress, shape (P + M,)."""
@@ -124,7 +166,7 @@ class ToeStops:
         for ends in self.pairs:
             np.logical_or.at(by_toe, ends, met[count:])
         hit = (met[:count] | by_toe) & moving
-        near = self.near(self.bones(progress))
+        near = self.near(self.bones(progress), foot.radii)
         for part in foot.finger_slices.values():
             if hit[part].any():
                 phalanx = part.start + int(np.argmax(hit[part]))
