@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.spatial import ConvexHull
 
 from zygopin import checks
 from zygopin.branch import Branch
@@ -116,10 +115,14 @@ class ConvexMesh:
         middle, unit = _middle_and_size(points)
         local = (points - middle) / unit
         _check_solid(local)
+        from scipy.spatial import ConvexHull  # only meshes need SciPy
+
         hull = ConvexHull(local)
         if triangles is None:
-            points = points[hull.vertices]
-            faces = _outward(hull)
+            listed = hull.simplices.astype(np.intp)
+            faces = _outward(local, listed, hull.equations[:, :3])
+            corners, places = np.unique(faces, return_inverse=True)
+            points, faces = points[corners], places.reshape(-1, 3).astype(np.intp)
         else:
             faces = _indices(triangles, len(points))
             _check_closed(faces)
@@ -221,15 +224,15 @@ def _check_count(points: NDArray[np.float64]) -> None:
         raise ParameterError("number of mesh.vertices", len(points), allowed, remedy)
 
 
-def _outward(hull: ConvexHull) -> NDArray[np.intp]:
-    """Triangles of a hull among its own vertices, counter-clockwise from outside."""
-    a, b, c = np.moveaxis(hull.points[hull.simplices], 1, 0)
-    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), hull.equations[:, :3]) < 0
-    places = np.zeros(len(hull.points), dtype=np.intp)
-    places[hull.vertices] = np.arange(len(hull.vertices))
-    faces = places[hull.simplices]
-    faces[inward] = faces[inward, ::-1]
-    return faces
+def _outward(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.intp],
+    normals: NDArray[np.float64],
+) -> NDArray[np.intp]:
+    """Triangles turned to run counter-clockwise seen against their outward normals."""
+    a, b, c = np.moveaxis(points[triangles], 1, 0)
+    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), normals) < 0
+    return np.where(inward[:, None], triangles[:, ::-1], triangles)
 
 
 def _indices(triangles: ArrayLike, count: int) -> NDArray[np.intp]:
