@@ -48,7 +48,11 @@ def test_validate_prints_one_json_document(run):
     document = json.loads(result.stdout)
     assert document["ok"]
     assert Foot.from_mapping(document["foot"]) == Foot.preset("owl")
-    assert len(document["rows"]) == 16
+    assert len(document["rows"]) == 18
+    assert [row["pose"] for row in document["rows"]] == (
+        [None] * 12 + ["zygodactyl"] * 4 + ["spread"] * 2
+    )
+    assert {row["finger"] for row in document["rows"][12:]} == {"finger4"}
     assert {row["check"] for row in document["rows"]} == {
         "grid",
         "words",
@@ -58,6 +62,14 @@ def test_validate_prints_one_json_document(run):
     for row in document["rows"]:
         assert row["ok"]
         assert row["levels"] == (3 if row["check"] == "limit" else 4)
+
+
+def test_the_table_of_the_owl_names_the_spread_pose_within_80_columns(run):
+    lines = run("validate", "--preset", "owl", "--levels", "4").stdout.splitlines()
+    assert max(map(len, lines)) <= 80
+    spread = [line.split()[:3] for line in lines if "spread" in line]
+    assert spread == [["finger4", "spread", "grid"], ["finger4", "spread", "words"]]
+    assert lines[-1] == "18 of 18 rows keep to their bounds"
 
 
 def test_a_wrong_angle_in_a_urdf_fails_with_status_1(run, tmp_path):

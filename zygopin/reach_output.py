@@ -35,6 +35,7 @@ def validation_document(foot: Foot, rows: Sequence[ValidationRow]) -> dict[str, 
         "rows": [
             {
                 "finger": row.finger,
+                "pose": row.pose,
                 "check": row.check,
                 "levels": row.levels,
                 "configurations": row.configurations,
@@ -55,11 +56,12 @@ def validation_rows(rows: Sequence[ValidationRow]) -> list[tuple[str, ...]]:
         rows: The rows.
 
     Returns:
-        Texts: finger, check, levels, configurations, value, relation, bound, verdict.
+        Texts: finger with its pose where it is spread, check, levels, configurations,
+            value, relation, bound, verdict.
     """
     return [
         (
-            row.finger,
+            f"{row.finger} spread" if row.pose == "spread" else row.finger,
             row.check,
             str(row.levels),
             str(row.configurations),
