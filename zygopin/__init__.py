@@ -37,6 +37,7 @@ _HOMES = {
     "reach_inverse": ("InverseReach", "inverse_reach"),
     "reach_scene": ("export_reach_scene",),
     "scene": ("export_scene",),
+    "spread": ("SpreadStudy", "spread_study", "strike_area", "talon_hull_area"),
     "validation": ("ReachValidation", "ValidationRow", "validate_foot"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
@@ -65,6 +66,7 @@ __all__ = [
     "PerchPlan",
     "ReachValidation",
     "ReachableSet",
+    "SpreadStudy",
     "UnknownNameError",
     "ValidationRow",
     "ZygopinError",
@@ -87,6 +89,9 @@ __all__ = [
     "plan_perch",
     "preset_names",
     "reachable_set",
+    "spread_study",
+    "strike_area",
+    "talon_hull_area",
     "to_srdf",
     "to_urdf",
     "validate_foot",

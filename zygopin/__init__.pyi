@@ -46,6 +46,10 @@ from zygopin.reach_inverse import InverseReach as InverseReach
 from zygopin.reach_inverse import inverse_reach as inverse_reach
 from zygopin.reach_scene import export_reach_scene as export_reach_scene
 from zygopin.scene import export_scene as export_scene
+from zygopin.spread import SpreadStudy as SpreadStudy
+from zygopin.spread import spread_study as spread_study
+from zygopin.spread import strike_area as strike_area
+from zygopin.spread import talon_hull_area as talon_hull_area
 from zygopin.validation import ReachValidation as ReachValidation
 from zygopin.validation import ValidationRow as ValidationRow
 from zygopin.validation import validate_foot as validate_foot
