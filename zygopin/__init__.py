@@ -10,21 +10,11 @@ from importlib import import_module
 from importlib.metadata import version as _version
 
 _HOMES = {
-    "branch": (
-        "Branch",
-        "branch_axis",
-    ),
+    "branch": ("Branch", "branch_axis"),
     "closing": ("Closing",),
     "control_system": ("ControlSystem",),
-    "description": (
-        "to_srdf",
-        "to_urdf",
-        "write_description",
-    ),
-    "engine": (
-        "Engine",
-        "make_engine",
-    ),
+    "description": ("to_srdf", "to_urdf", "write_description"),
+    "engine": ("Engine", "make_engine"),
     "errors": (
         "DescriptionError",
         "FileError",
@@ -33,89 +23,31 @@ _HOMES = {
         "UnknownNameError",
         "ZygopinError",
     ),
-    "finger": (
-        "Finger",
-        "zygodactyl_fingers",
-    ),
+    "finger": ("Finger", "zygodactyl_fingers"),
     "flight": ("Flight",),
     "foot": ("Foot",),
-    "grasp": (
-        "Criteria",
-        "GraspReport",
-        "check_grasp",
-    ),
+    "grasp": ("Criteria", "GraspReport", "check_grasp"),
     "grip": ("Grip",),
-    "hausdorff": (
-        "HausdorffDistance",
-        "directed_distance",
-        "hausdorff_distance",
-    ),
-    "ifs": (
-        "ReachableSet",
-        "attractor",
-        "iter_reachable",
-        "reachable_set",
-    ),
-    "inverse": (
-        "contains",
-        "find_word",
-        "nearest_reachable",
-    ),
+    "hausdorff": ("HausdorffDistance", "directed_distance", "hausdorff_distance"),
+    "ifs": ("ReachableSet", "attractor", "iter_reachable", "reachable_set"),
+    "inverse": ("contains", "find_word", "nearest_reachable"),
     "kinematics": ("forward_kinematics",),
     "model": ("FootModel",),
-    "motion": (
-        "Law",
-        "Motion",
-    ),
-    "obstacle": (
-        "Box",
-        "Capsule",
-        "ConvexMesh",
-        "Sphere",
-    ),
-    "paths": (
-        "PACKAGE_PATH",
-        "PRESETS_PATH",
-        "SRDF_PATH",
-        "URDF_PATH",
-        "XACRO_PATH",
-    ),
-    "perch": (
-        "PerchPlan",
-        "plan_perch",
-    ),
+    "motion": ("Law", "Motion"),
+    "obstacle": ("Box", "Capsule", "ConvexMesh", "Sphere"),
+    "paths": ("PACKAGE_PATH", "PRESETS_PATH", "SRDF_PATH", "URDF_PATH", "XACRO_PATH"),
+    "perch": ("PerchPlan", "plan_perch"),
     "presets": ("preset_names",),
-    "reach": (
-        "FingerReach",
-        "finger_reach",
-    ),
-    "reach_inverse": (
-        "InverseReach",
-        "inverse_reach",
-    ),
+    "reach": ("FingerReach", "finger_reach"),
+    "reach_inverse": ("InverseReach", "inverse_reach"),
     "reach_scene": ("export_reach_scene",),
     "scene": ("export_scene",),
     "solid_clearance": ("obstacle_clearance",),
-    "spread": (
-        "SpreadStudy",
-        "spread_study",
-        "strike_area",
-        "talon_hull_area",
-    ),
+    "spread": ("SpreadStudy", "spread_study", "strike_area", "talon_hull_area"),
     "strike": ("simulate_strike",),
-    "tendon": (
-        "Contact",
-        "TendonFoot",
-    ),
-    "trajectory": (
-        "StrikeEvent",
-        "StrikeTrajectory",
-    ),
-    "validation": (
-        "ReachValidation",
-        "ValidationRow",
-        "validate_foot",
-    ),
+    "tendon": ("Contact", "TendonFoot"),
+    "trajectory": ("StrikeEvent", "StrikeTrajectory"),
+    "validation": ("ReachValidation", "ValidationRow", "validate_foot"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
