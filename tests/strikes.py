@@ -6,8 +6,10 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from zygopin.foot import Foot
+from zygopin.grip import grip_of
 from zygopin.kinematics import forward_kinematics
 from zygopin.obstacle import Sphere
+from zygopin.solid_clearance import obstacle_clearance
 from zygopin.trajectory import StrikeEvent, StrikeTrajectory
 
 CONTACT, LOCKED, END = 0.15, 0.21, 0.26
@@ -40,10 +42,8 @@ def made_strike(obstacle=BALL, samples=131, closed=0.62, **changes):
     local = forward_kinematics(foot, controls, azimuths=azimuths)
     bones = np.einsum("nij,npkj->npki", base[:, :3, :3], local)
     bones += base[:, None, None, :3, 3]
-    steps = np.linspace(0, 1, 9)[:, None, None, None, None]
-    reach = np.linalg.norm(
-        bones[:, :, 0] + steps[..., 0] * (bones[:, :, 1] - bones[:, :, 0]), axis=-1
-    )
+    near = obstacle_clearance(bones, foot.radii, obstacle)
+    last = obstacle_clearance(bones[-1], foot.radii, obstacle)
     values = {
         "foot": foot,
         "obstacle": obstacle,
@@ -55,8 +55,9 @@ def made_strike(obstacle=BALL, samples=131, closed=0.62, **changes):
         "azimuths": azimuths,
         "base": base,
         "bones": bones,
-        "clearance": reach.min(axis=0) - 0.017 - foot.radii,
+        "clearance": near.distance,
         "events": events(),
+        "grip": grip_of(foot, bones[-1], last, 1e-6),
     }
     return StrikeTrajectory(**{**values, **changes})
 

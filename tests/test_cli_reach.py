@@ -5,13 +5,16 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+import tracemalloc
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
 from test_cli import run as run_alone
 
-from zygopin import Foot, forward_kinematics, to_urdf
+from zygopin import Foot, ParameterError, finger_reach, forward_kinematics, to_urdf
 from zygopin.cli import main
+from zygopin.reach_output import write_arrays
 
 FIGURE = ("reach", "--preset", "paper", "--finger", "3", "--omega-deg", "15,30")
 SMALL = (*FIGURE, "--levels", "5")
@@ -48,7 +51,11 @@ def test_validate_prints_one_json_document(run):
     document = json.loads(result.stdout)
     assert document["ok"]
     assert Foot.from_mapping(document["foot"]) == Foot.preset("owl")
-    assert len(document["rows"]) == 16
+    assert len(document["rows"]) == 18
+    assert [row["pose"] for row in document["rows"]] == (
+        [None] * 12 + ["zygodactyl"] * 4 + ["spread"] * 2
+    )
+    assert {row["finger"] for row in document["rows"][12:]} == {"finger4"}
     assert {row["check"] for row in document["rows"]} == {
         "grid",
         "words",
@@ -58,6 +65,14 @@ def test_validate_prints_one_json_document(run):
     for row in document["rows"]:
         assert row["ok"]
         assert row["levels"] == (3 if row["check"] == "limit" else 4)
+
+
+def test_the_table_of_the_owl_names_the_spread_pose_within_80_columns(run):
+    lines = run("validate", "--preset", "owl", "--levels", "4").stdout.splitlines()
+    assert max(map(len, lines)) <= 80
+    spread = [line.split()[:3] for line in lines if "spread" in line]
+    assert spread == [["finger4", "spread", "grid"], ["finger4", "spread", "words"]]
+    assert lines[-1] == "18 of 18 rows keep to their bounds"
 
 
 def test_a_wrong_angle_in_a_urdf_fails_with_status_1(run, tmp_path):
@@ -119,6 +134,45 @@ def test_arrays_hold_points_levels_and_bounds(run, tmp_path):
         place = [turned.real, turned.imag, arrays["points"][1, index].imag]
         np.testing.assert_allclose(tip, place, atol=1e-14)
         assert arrays["depth_bound"] == pytest.approx([0.236068] * 2, abs=1e-6)
+
+
+def two_sets(first=9, second=9):
+    """The sets of one finger at two joint limits, each of some levels."""
+    return [
+        finger_reach(Foot(omega=0.3), "finger3", first),
+        finger_reach(Foot(omega=0.5), "finger3", second),
+    ]
+
+
+def test_an_archive_is_what_numpy_reads_and_holds_no_time(tmp_path):
+    sets = two_sets()
+    path = write_arrays(sets, tmp_path / "a.npz")
+    with np.load(path, allow_pickle=False) as arrays:
+        np.testing.assert_array_equal(arrays["points"], [s.points for s in sets])
+        assert arrays["points"].dtype == complex
+        assert arrays["omega"].tolist() == [0.3, 0.5]
+        assert arrays["depth"] == 4
+        assert arrays["scale"].shape == ()
+    with ZipFile(path) as archive:
+        assert archive.testzip() is None
+        assert {member.date_time[0] for member in archive.infolist()} == {1980}
+
+
+def test_writing_an_archive_takes_the_memory_of_one_set(tmp_path):
+    sets = two_sets(25, 25)
+    tracemalloc.start()
+    try:
+        write_arrays(sets, tmp_path / "a.npz")
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert peak < 1.3 * sets[0].points.nbytes
+
+
+def test_sets_of_different_sizes_make_no_archive(tmp_path):
+    with pytest.raises(ParameterError, match=r"points of the sets = \[16, 81\] is not"):
+        write_arrays(two_sets(2, 3), tmp_path / "a.npz")
+    assert not list(tmp_path.iterdir())
 
 
 def test_vertices_of_the_hull_come_with_their_words(run):

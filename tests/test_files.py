@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from zygopin.errors import FileError
-from zygopin.files import read_text, write_bytes, write_text
+from zygopin.files import read_text, write_bytes, write_stream, write_text
 
 
 def test_it_writes_the_text_and_creates_folders(tmp_path):
@@ -64,6 +64,32 @@ def test_folders_and_devices_are_refused(tmp_path, path):
 def test_it_writes_bytes_as_they_are(tmp_path):
     path = write_bytes(tmp_path / "a" / "b.bin", b"\x00\r\n\xff")
     assert path.read_bytes() == b"\x00\r\n\xff"
+
+
+def test_it_writes_piece_by_piece_and_stands_when_all_is_written(tmp_path):
+    path = tmp_path / "a.bin"
+
+    def write(file):
+        file.write(b"one ")
+        assert not path.exists()
+        file.write(b"two")
+
+    assert write_stream(path, write) == path
+    assert path.read_bytes() == b"one two"
+
+
+@pytest.mark.parametrize("error", [KeyError, KeyboardInterrupt, MemoryError])
+def test_a_writer_that_breaks_off_leaves_the_old_file(tmp_path, error):
+    path = write_bytes(tmp_path / "a.bin", b"old")
+
+    def write(file):
+        file.write(b"new")
+        raise error
+
+    with pytest.raises(error):
+        write_stream(path, write)
+    assert path.read_bytes() == b"old"
+    assert list(tmp_path.iterdir()) == [path]
 
 
 def test_bytes_for_a_folder_are_refused(tmp_path):

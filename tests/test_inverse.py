@@ -8,14 +8,15 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.optimize import minimize
 from strategies import level_sets, omegas, planar_points, reals
 
-from zygopin.control_boxes import descend
+from zygopin.control_boxes import BoxSearch, descend
 from zygopin.control_system import ControlSystem
 from zygopin.errors import ParameterError
 from zygopin.ifs import reachable_set
 from zygopin.inverse import contains, find_word, nearest_reachable
-from zygopin.word_answer import arc_discs, tip
+from zygopin.word_answer import Goal, arc_discs, tip
 
 PHI = (1 + math.sqrt(5)) / 2
 FINGER = ControlSystem(PHI, math.pi / 6, 33)
@@ -124,6 +125,47 @@ def test_no_controls_come_nearer_than_the_interval_s_bound(rho, omega, depth, ta
     assert answer.lower_bound <= answer.distance
     verdict = find_word(target, system, depth, tolerance=0.01, max_nodes=20_000).verdict
     assert verdict != "not_reachable" or least > 0.01
+
+
+@LAWS
+@given(
+    st.tuples(reals(1.05, 4), omegas(), st.none(), reals(-4, 4)),
+    st.integers(2, 6),
+    planar_points(),
+    st.integers(0, 99),
+)
+def test_no_tip_of_a_box_is_nearer_than_its_bound(parameters, depth, target, seed):
+    system, rng = ControlSystem(*parameters), np.random.default_rng(seed)
+    goal = Goal(target, depth, tolerance=1e-9, max_nodes=1, nearest=True)
+    ends = np.sort(rng.random((2, 8, depth - 1)), axis=0)
+    middle, half = ends.mean(axis=0), np.ptp(ends, axis=0) / 2
+    half *= 10.0 ** -rng.integers(0, 4, (8, 1))
+    bounds = BoxSearch(system, goal).bounded(middle, half).bound
+    for box, bound in enumerate(bounds):
+        within = rng.uniform(-1, 1, (200, depth - 1)) * half[box] + middle[box]
+        first = np.clip(np.round(rng.uniform(-0.5, 1.5, 200), 1), 0, 1)
+        tips = [tip(system, word) for word in np.column_stack([within, first])]
+        assert bound <= np.abs(np.array(tips) - target).min()
+
+
+@settings(max_examples=30, deadline=None, derandomize=True)
+@given(reals(1.1, 2), reals(0.3, 2), st.integers(2, 5), reals(-3.2, 3.2))
+def test_the_interval_s_nearest_point_is_proved_outside_of_the_set(
+    rho, omega, depth, direction
+):
+    system = ControlSystem(rho, omega)
+    target = 1.3 * system.tail(0) * np.exp(1j * direction)
+    answer = nearest_reachable(target, system, depth, max_nodes=50_000)
+    assert answer.verdict == "not_reachable"
+    assert answer.distance - answer.lower_bound <= 1.01e-9
+    rng = np.random.default_rng(7)
+    for start in rng.random((5, depth)):
+        found = minimize(
+            lambda controls: abs(tip(system, controls) - target),
+            start,
+            bounds=[(0, 1)] * depth,
+        )
+        assert found.fun >= answer.lower_bound
 
 
 def test_descent_never_loses():

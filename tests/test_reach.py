@@ -22,10 +22,19 @@ from zygopin.reach import (
     to_space,
 )
 from zygopin.reach_inverse import inverse_reach
-from zygopin.validation import CHECKS, ValidationRow, iter_validation, validate_foot
+from zygopin.validation import (
+    CHECKS,
+    ValidationRow,
+    iter_validation,
+    row_count,
+    validate_foot,
+)
 
 PAPER = Foot.preset("paper")
 OWL = Foot.preset("owl")
+
+SPREAD = ("grid", "words")
+"""Checks that a toe goes through at its reversed azimuth too."""
 
 
 def tip(foot, finger, controls):
@@ -97,8 +106,15 @@ def test_every_preset_stands_against_pinocchio(name):
     foot = Foot.preset(name)
     found = validate_foot(foot, levels=6, samples=300)
     assert found.ok
-    names = [(row.finger, row.check) for row in found.rows]
-    assert names == [(f.name, check) for f in foot.fingers for check in CHECKS]
+    names = [(row.finger, row.check, row.pose) for row in found.rows]
+    expected = []
+    for finger in foot.fingers:
+        turns = finger.reversed_azimuth is not None
+        own = "zygodactyl" if turns else None
+        expected += [(finger.name, check, own) for check in CHECKS]
+        expected += [(finger.name, check, "spread") for check in SPREAD if turns]
+    assert names == expected
+    assert len(names) == row_count(foot) == (18 if name == "owl" else 16)
 
 
 def test_a_validation_says_what_it_took():
@@ -132,6 +148,35 @@ def test_a_wrong_angle_in_the_urdf_is_found_out(factor):
 def test_a_wrong_length_in_the_urdf_is_found_out():
     wrong = to_urdf(OWL.replace(rho=1.1801))
     assert not validate_foot(OWL, levels=3, samples=20, urdf=wrong).ok
+
+
+def urdf_with_reversal(foot, change):
+    """The URDF of a foot whose last toe turns to another azimuth."""
+    *others, toe = foot.fingers
+    turned = dataclasses.replace(toe, reversed_azimuth=toe.reversed_azimuth + change)
+    return to_urdf(foot.replace(fingers=(*others, turned)))
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+@pytest.mark.parametrize("change", [1e-9, -0.2])
+def test_a_wrong_reversal_in_the_urdf_fails_in_the_spread_pose(mirrored, change):
+    *others, toe = OWL.fingers
+    back = dataclasses.replace(toe, reversed_azimuth=toe.azimuth - toe.reversal)
+    foot = OWL.replace(fingers=(*others, back)) if mirrored else OWL
+    assert validate_foot(foot, levels=3, samples=9).ok
+    wrong = urdf_with_reversal(foot, change)
+    found = validate_foot(foot, levels=3, samples=9, urdf=wrong)
+    failed = {(row.finger, row.check, row.pose) for row in found.rows if not row.ok}
+    assert failed == {("finger4", check, "spread") for check in SPREAD}
+
+
+def test_a_reversal_that_starts_off_the_azimuth_fails_in_the_zygodactyl_pose():
+    text = to_urdf(OWL)
+    place = text.index("finger4_reversal")
+    wrong = text[:place] + text[place:].replace('lower="0.0"', 'lower="0.1"', 1)
+    found = validate_foot(OWL, levels=3, samples=9, urdf=wrong)
+    failed = {row.pose for row in found.rows if not row.ok}
+    assert failed == {"zygodactyl"}
 
 
 def test_random_controls_are_of_the_callers_generator():

@@ -16,7 +16,7 @@ from test_scene import HOSTILE, extent, fingers
 from zygopin.branch import Branch
 from zygopin.errors import FileError, ParameterError
 from zygopin.obstacle import Box, Capsule, ConvexMesh
-from zygopin.obstacle_drawing import PREY, mesh_triangles, obstacle_extent
+from zygopin.obstacle_drawing import PREY, obstacle_extent
 from zygopin.strike_caption import outcome_words, slowdown, toes_in_contact
 from zygopin.strike_scene import (
     MODE_PAINTS,
@@ -275,7 +275,7 @@ def test_a_strike_that_meets_nothing_is_shown_too(strike, tmp_path):
     text = export_strike(free, tmp_path / "a.html").read_text("utf-8")
     assert "Free at the end: no toe meets the ball" in text
     assert "nothing was met" in text
-    assert len(scene_of(tmp_path / "a.html")["motion"]["phases"]) == 1
+    assert len(scene_of(tmp_path / "a.html")["motion"]["spans"]) == 1
 
 
 def test_a_record_of_one_instant_is_shown_too(strike, tmp_path):
@@ -303,17 +303,6 @@ def test_the_whole_plays_for_about_seven_seconds(duration, slower):
     assert slowdown(duration) == slower
 
 
-@pytest.mark.parametrize("given", [True, False])
-def test_faces_of_a_mesh_look_outward(given):
-    faces = mesh_triangles(ConvexMesh(CUBE)) if given else None
-    triangles = mesh_triangles(ConvexMesh(CUBE, faces))
-    first, second, third = np.moveaxis(CUBE[triangles], 1, 0)
-    normals = np.cross(second - first, third - first)
-    assert len(triangles) == 12
-    assert np.all(np.sum(normals * (first - 0.5), axis=-1) > 0)
-    assert np.linalg.norm(normals, axis=-1).sum() / 2 == pytest.approx(6)
-
-
 def test_box_and_mesh_of_its_corners_take_the_same_room():
     turn = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
     box = Box(np.array([1.0, 2, 3]), np.array([4.0, 5, 6]), turn)
@@ -321,7 +310,7 @@ def test_box_and_mesh_of_its_corners_take_the_same_room():
     np.testing.assert_allclose(np.ptp(corners, axis=0), [2, 1, 3])
     np.testing.assert_allclose(corners.mean(axis=0), box.centre)
     same, zero = obstacle_extent(ConvexMesh(corners), (0, 0))
-    np.testing.assert_array_equal(same, corners)
+    assert {*map(tuple, same)} == {*map(tuple, corners)}
     assert radius == zero == 0
 
 
@@ -333,7 +322,6 @@ def test_box_and_mesh_of_its_corners_take_the_same_room():
         Box(np.array([0.03, 0.05, 0.03]), np.zeros(3)),
         Box(np.array([2.0, 2.0, 0.1]), np.array([0, 0, -0.05])),
         Capsule(0.015, np.array([[0, -0.03, 0], [0, 0.03, 0]])),
-        Capsule(0.015, np.zeros((2, 3))),
         ConvexMesh(0.03 * CUBE),
     ],
 )

@@ -20,6 +20,9 @@ MAX_BOXES = 2**13
 DIRECTIONS = (8, 32, 128)
 """Directions whose farthest points cut away the inside, before a hull is taken."""
 
+BLOCK = 2**18
+"""Points whose inside is cut away at once."""
+
 FINEST, COARSEST = 256, 8
 """Boxes along the set's longer side, from fine to coarse, unless said otherwise."""
 
@@ -157,7 +160,18 @@ def _count(places: NDArray[np.complex128], number: int) -> int:
 
 
 def _outer(points: NDArray[np.complex128]) -> NDArray[np.intp]:
-    """Indices of points that no polygon of extreme points holds inside."""
+    """Indices of points that no polygon of extreme points holds inside.
+
+    Block by block, so that a large set is not copied, and then all that is left.
+    """
+    starts = range(0, len(points), BLOCK)
+    parts = [start + _cut(points[start : start + BLOCK]) for start in starts]
+    outer = np.concatenate(parts)
+    return outer[_cut(points[outer])]
+
+
+def _cut(points: NDArray[np.complex128]) -> NDArray[np.intp]:
+    """Indices of points that polygons of ever more extreme points do not hold."""
     outer = np.arange(len(points))
     for count in DIRECTIONS:
         outer = outer[_outside(points[outer], count)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from pathlib import Path
+from typing import BinaryIO
 
 from zygopin.errors import FileError
 
@@ -47,7 +48,7 @@ def write_text(path: Path | str, text: str) -> Path:
     Raises:
         FileError: The path is no regular file, or its folder cannot be written.
     """
-    return _write(path, lambda: text.encode("utf-8"))
+    return write_stream(path, lambda file: file.write(text.encode("utf-8")))
 
 
 def write_bytes(path: Path | str, content: bytes) -> Path:
@@ -63,19 +64,29 @@ def write_bytes(path: Path | str, content: bytes) -> Path:
     Raises:
         FileError: The path is no regular file, or its folder cannot be written.
     """
-    return _write(path, lambda: content)
+    return write_stream(path, lambda file: file.write(content))
 
 
-def _write(path: Path | str, content: Callable[[], bytes]) -> Path:
-    """Write beside the place first, then rename into it.
+def write_stream(path: Path | str, write: Callable[[BinaryIO], object]) -> Path:
+    """Write a file piece by piece, yet whole or not at all.
 
-    Whoever reads the path finds the old content or the new one, never a part. A
-    symbolic link is followed.
+    It is written beside its place first, then renamed into it: whoever reads the path
+    finds the old content or the new one, never a part. A symbolic link is followed.
+
+    Args:
+        path: The file; missing parent folders are created.
+        write: Writes the content into the open file that it is given.
+
+    Returns:
+        The path.
+
+    Raises:
+        FileError: The path is no regular file, or its folder cannot be written.
     """
     try:
         target = _target(path)
         target.parent.mkdir(parents=True, exist_ok=True)
-        _replace(target, content())
+        _replace(target, write)
     except (OSError, ValueError) as error:
         problem = getattr(error, "strerror", None) or str(error)
         remedy = "name a file in a folder that can be written"
@@ -91,12 +102,12 @@ def _target(path: Path | str) -> Path:
     return target
 
 
-def _replace(target: Path, content: bytes) -> None:
+def _replace(target: Path, write: Callable[[BinaryIO], object]) -> None:
     """Write beside the target and rename; leave nothing beside it on failure."""
     part = target.with_name(f".{os.urandom(8).hex()}.part")
     try:
         with part.open("xb") as file:
-            file.write(content)
+            write(file)
         part.replace(target)
     finally:
         part.unlink(missing_ok=True)

@@ -41,15 +41,27 @@ class FootModel:
         self.model: pin.Model = _read(self.urdf, foot)
         turning = [finger for finger in foot.fingers if names.is_reversible(finger)]
         self._turning = [foot.fingers.index(finger) for finger in turning]
-        self._reversal = self._coordinates(map(names.reversal_joint, turning))
+        self._reversal = self.coordinates(map(names.reversal_joint, turning))
         flexion = map(names.flexion_joints, foot.fingers)
-        self._flexion = self._coordinates(chain.from_iterable(flexion))
+        self._flexion = self.coordinates(chain.from_iterable(flexion))
         self._frames = [
             self.model.getFrameId(link, pin.FrameType.BODY)
             for link in names.bone_links(foot)
         ]
         # Each finger's tip comes after its phalanges: one frame more for each.
         self._starts = np.arange(foot.phalanx_count) + foot.finger_of_phalanx
+
+    def coordinates(self, joints: Iterable[str]) -> NDArray[np.intp]:
+        """Where joints' angles stand in Pinocchio's q.
+
+        Args:
+            joints: Names of n joints that move.
+
+        Returns:
+            Indices, shape (n,).
+        """
+        ids = [self.model.getJointId(joint) for joint in joints]
+        return np.array([self.model.idx_qs[i] for i in ids], dtype=np.intp)
 
     def configuration(
         self, controls: Controls, azimuths: ArrayLike | None = None
@@ -107,11 +119,6 @@ class FootModel:
         return np.stack(
             [origins[..., self._starts, :], origins[..., self._starts + 1, :]], axis=-2
         )
-
-    def _coordinates(self, joints: Iterable[str]) -> NDArray[np.intp]:
-        """Where the joints' angles stand in q."""
-        ids = [self.model.getJointId(joint) for joint in joints]
-        return np.array([self.model.idx_qs[i] for i in ids], dtype=np.intp)
 
     def _turns(self, azimuths: ArrayLike | None) -> NDArray[np.float64]:
         """Turn of each finger from its own azimuth [rad], shape (…, F)."""

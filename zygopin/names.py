@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Literal
 
 from zygopin.finger import Finger
 from zygopin.foot import Foot
 
 BASE = "foot"
 """The rigid base link, at the junction that all fingers share."""
+
+Pose = Literal["zygodactyl", "spread"]
+"""Where a toe that can turn stands: at its azimuth, or at its reversed one."""
 
 
 def phalanx_links(finger: Finger) -> tuple[str, ...]:

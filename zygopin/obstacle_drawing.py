@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull
 
 from zygopin.branch import Branch
 from zygopin.canvas import Canvas
@@ -74,7 +73,7 @@ def draw_obstacle(
         case Capsule():
             canvas.capsule(PATH, obstacle.ends, float(obstacle.radius), paint)
         case ConvexMesh():
-            canvas.facets(PATH, obstacle.vertices[mesh_triangles(obstacle)], paint)
+            canvas.facets(PATH, obstacle.vertices[obstacle.triangles], paint)
 
 
 def obstacle_extent(
@@ -135,36 +134,18 @@ def obstacle_rows(obstacle: Obstacle, size: float) -> dict[str, str]:
                 "End": _place(obstacle.ends[1], lengths),
             }
         case ConvexMesh():
+            low, high = obstacle.vertices.min(0), obstacle.vertices.max(0)
             return {
                 "Vertices": str(len(obstacle.vertices)),
-                "Centre": _place(np.mean(obstacle.vertices, axis=0), lengths),
+                "Extent": _place(high - low, lengths),
+                "Middle": _place((low + high) / 2, lengths),
             }
-
-
-def mesh_triangles(mesh: ConvexMesh) -> NDArray[np.intp]:
-    """The faces of a convex mesh.
-
-    Args:
-        mesh: The mesh.
-
-    Returns:
-        Vertices of each face, counter-clockwise from outside, shape (T, 3).
-    """
-    if mesh.triangles is not None:
-        return np.asarray(mesh.triangles)
-    hull = ConvexHull(mesh.vertices)
-    triangles = np.asarray(hull.simplices, np.intp)
-    first, second, third = np.moveaxis(mesh.vertices[triangles], 1, 0)
-    inward = np.sum(np.cross(second - first, third - first) * hull.equations[:, :3], -1)
-    return np.where(inward[:, None] < 0, triangles[:, ::-1], triangles)
 
 
 def _box_pose(box: Box) -> NDArray[np.float64]:
     """T_world_box, shape (4, 4)."""
     pose = np.eye(4)
-    pose[:3, 3] = box.centre
-    if box.rotation is not None:
-        pose[:3, :3] = box.rotation
+    pose[:3, :3], pose[:3, 3] = box.rotation, box.centre
     return pose
 
 

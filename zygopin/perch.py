@@ -111,8 +111,8 @@ def plan_perch(
         The best plan; its `reason` says why where it is no feasible grasp.
 
     Raises:
-        ParameterError: A batch of branches, a vertical branch whose height is to be
-            found, or levels out of range.
+        ParameterError: A batch of branches, one that holds the foot's base, a vertical
+            branch whose height is to be found, or levels out of range.
     """
     if branch.batch_shape:
         remedy = "plan for one branch at a time"

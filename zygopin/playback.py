@@ -35,7 +35,7 @@ class Track:
 
 
 @dataclass(frozen=True)
-class Phase:
+class Span:
     """A stretch of time, until the next one starts.
 
     Attributes:
@@ -50,19 +50,19 @@ class Phase:
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class Playback:
     """What changes in a scene over time.
 
     Attributes:
         times: Instants, ascending [s], shape (n,).
         tracks: What moves.
-        phases: What is called what when; the first starts with the motion.
+        spans: What is called what when; the first starts with the motion.
         appearances: Paths of solids that are unseen until a time [s].
     """
 
     times: NDArray[np.float64]
     tracks: Sequence[Track]
-    phases: Sequence[Phase]
+    spans: Sequence[Span]
     appearances: Sequence[tuple[str, float]]
 
     def data(self, canvas: Canvas) -> dict[str, Any]:
@@ -80,7 +80,7 @@ class Motion:
             "quantum": float(f"1e-{DECIMALS}"),
             "tracks": [_addressed(canvas, track.parts) for track in self.tracks],
             "poses": _packed(canvas, np.stack([t.poses for t in self.tracks], axis=1)),
-            "phases": [[page_time(p.start), p.name, p.colour] for p in self.phases],
+            "spans": [[page_time(p.start), p.name, p.colour] for p in self.spans],
             "appearances": [
                 [canvas.address(path), page_time(time)]
                 for path, time in self.appearances

@@ -21,12 +21,9 @@ from zygopin.word_answer import Verdict, WordAnswer
 REACHED = 1e-6
 """Distance over the finger's length within which a point counts as reached."""
 
-NEAREST = 1e-4
-"""What the residual may lose against the least one where a point is out of reach,
-over the length that a finger of any number of phalanges has."""
-
-MAX_NODES = 100_000
-"""Nodes that a search for controls may visit, unless said otherwise: a second."""
+MAX_NODES = 1_000_000
+"""Nodes that a search for controls may visit, unless said otherwise: seconds
+at worst."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,8 +70,8 @@ def inverse_reach(
 
     The point is projected into the finger's plane, and searched there by pruning the
     tree of control sequences (MODEL.md, section 3). Out of reach, the search goes on
-    until the residual is within about 1e-4 of the finger's length of the least one,
-    or the nodes run out: `lower_bound` says how near it certainly is.
+    until the residual is within the tolerance of the least one, or the nodes run out:
+    `lower_bound` says how near it certainly is.
 
     Args:
         foot: The foot.
@@ -124,9 +121,8 @@ def _searched(
     found = find_word(target, system, depth, tolerance=within, max_nodes=nodes)
     if found.verdict == "reachable":
         return found
-    coarse = max(within, NEAREST / (system.rho - 1))
     nearest = nearest_reachable(
-        target, system, depth, tolerance=coarse, max_nodes=nodes
+        target, system, depth, tolerance=within, max_nodes=nodes
     )
     best = min(found, nearest, key=lambda each: each.distance)
     bound = max(found.lower_bound, nearest.lower_bound)

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-import io
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import IO, Any, BinaryIO
+from zipfile import ZipFile, ZipInfo
 
 import numpy as np
 
-from zygopin.files import write_bytes
+from zygopin.errors import ParameterError
+from zygopin.files import write_stream
 from zygopin.foot import Foot
 from zygopin.reach import FingerReach
 from zygopin.validation import ValidationRow
 
 MILLIMETRES = 1e3
 """Millimetres in a metre."""
+
+UNIX = 3
+"""The system that archives name as their maker's: their bytes are the same on all."""
 
 
 def validation_document(foot: Foot, rows: Sequence[ValidationRow]) -> dict[str, Any]:
@@ -35,6 +39,7 @@ def validation_document(foot: Foot, rows: Sequence[ValidationRow]) -> dict[str, 
         "rows": [
             {
                 "finger": row.finger,
+                "pose": row.pose,
                 "check": row.check,
                 "levels": row.levels,
                 "configurations": row.configurations,
@@ -55,11 +60,12 @@ def validation_rows(rows: Sequence[ValidationRow]) -> list[tuple[str, ...]]:
         rows: The rows.
 
     Returns:
-        Texts: finger, check, levels, configurations, value, relation, bound, verdict.
+        Texts: finger with its pose where it is spread, check, levels, configurations,
+            value, relation, bound, verdict.
     """
     return [
         (
-            row.finger,
+            f"{row.finger} spread" if row.pose == "spread" else row.finger,
             row.check,
             str(row.levels),
             str(row.configurations),
@@ -125,6 +131,8 @@ def write_arrays(reaches: Sequence[FingerReach], path: Path | str) -> Path:
     `depth`, `orientation` and `azimuth` [rad], shape (). The word of point i: the
     levels at the k digits of i in base n, the first control's digit first.
 
+    Points are written set by set, so that one set's copy is all the memory it takes.
+
     Args:
         reaches: Sets that differ in the feet's joint limits.
         path: The file.
@@ -133,24 +141,57 @@ def write_arrays(reaches: Sequence[FingerReach], path: Path | str) -> Path:
         The path.
 
     Raises:
+        ParameterError: The sets differ in their numbers of points.
         FileError: The file cannot be written.
     """
+    _check_sizes(reaches)
     first = reaches[0]
-    buffer = io.BytesIO()
-    np.savez(
-        buffer,
-        points=np.stack([reach.points for reach in reaches]),
-        levels=first.plane.levels,
-        omega=[reach.foot.omega for reach in reaches],
-        depth_bound=[reach.depth_bound for reach in reaches],
-        grid_bound=[reach.grid_bound for reach in reaches],
-        rho=first.foot.rho,
-        scale=first.foot.scale,
-        depth=first.depth,
-        orientation=first.finger.orientation,
-        azimuth=first.finger.azimuth,
-    )
-    return write_bytes(path, buffer.getvalue())
+    arrays = {
+        "levels": first.plane.levels,
+        "omega": [reach.foot.omega for reach in reaches],
+        "depth_bound": [reach.depth_bound for reach in reaches],
+        "grid_bound": [reach.grid_bound for reach in reaches],
+        "rho": first.foot.rho,
+        "scale": first.foot.scale,
+        "depth": first.depth,
+        "orientation": first.finger.orientation,
+        "azimuth": first.finger.azimuth,
+    }
+
+    def write(file: BinaryIO) -> None:
+        with ZipFile(file, "w") as archive:
+            with _member(archive, "points") as member:
+                _write_points(reaches, member)
+            for name, values in arrays.items():
+                with _member(archive, name) as member:
+                    np.lib.format.write_array(member, np.asarray(values))
+
+    return write_stream(path, write)
+
+
+def _check_sizes(reaches: Sequence[FingerReach]) -> None:
+    """All sets have as many points, so that one array can hold them."""
+    sizes = [len(reach.plane.points) for reach in reaches]
+    if len(set(sizes)) != 1:
+        remedy = "give sets of one depth and one number of levels"
+        raise ParameterError("points of the sets", sizes, "one number", remedy)
+
+
+def _member(archive: ZipFile, name: str) -> IO[bytes]:
+    """A place for an array in an archive, without the time of day."""
+    place = ZipInfo(f"{name}.npy")
+    place.create_system = UNIX
+    return archive.open(place, "w", force_zip64=True)
+
+
+def _write_points(reaches: Sequence[FingerReach], file: IO[bytes]) -> None:
+    """Write the points of all sets as one array, of shape (sets, n^k)."""
+    points = reaches[0].plane.points
+    header = np.lib.format.header_data_from_array_1_0(points)
+    header["shape"] = (len(reaches), *points.shape)
+    np.lib.format.write_array_header_1_0(file, header)
+    for reach in reaches:
+        file.write(reach.points.data)
 
 
 def _set(reach: FingerReach, *, hull: bool) -> dict[str, Any]:

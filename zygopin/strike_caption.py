@@ -8,14 +8,15 @@ from html import escape
 
 import numpy as np
 
-from zygopin.caption import Key, Lengths, foot_rows, legend, section
+from zygopin.caption import Key, Lengths, foot_rows, legend, ratio, section
 from zygopin.obstacle_drawing import obstacle_noun, obstacle_rows
-from zygopin.playback import Phase, clock_decimals, page_time
+from zygopin.playback import Span, clock_decimals, page_time
 from zygopin.trajectory import EventKind, StrikeEvent, StrikeTrajectory
 
 EVENT_WORDS: dict[EventKind, str] = {
     "engaged": "first contact",
     "stopped": "stopped",
+    "crossed": "met a toe",
     "locked": "locked",
     "released": "released",
 }
@@ -116,27 +117,29 @@ def strike_rows(trajectory: StrikeTrajectory) -> dict[str, str]:
         "Largest penetration" if inside else "Least clearance": lengths(
             abs(least) if inside else least
         ),
+        "Between fingers": lengths(float(trajectory.grip.finger_clearance)),
+        "Scalar product": ratio(float(trajectory.grip.scalar_product)),
         "Tolerance": f"{trajectory.tolerance * 1e3:.1e} mm",
     }
 
 
-def controls(trajectory: StrikeTrajectory, phases: Sequence[Phase]) -> str:
+def controls(trajectory: StrikeTrajectory, spans: Sequence[Span]) -> str:
     """The player's controls as HTML: a slider with marks, a button, mode and speed.
 
     Args:
         trajectory: The strike.
-        phases: Its modes over time.
+        spans: Its modes over time.
 
     Returns:
         HTML; hidden until the page's script shows it.
     """
     start, end = (page_time(trajectory.times[index]) for index in (0, -1))
     marks = sorted({_share(trajectory, event.time) for event in trajectory.events})
-    spans = "".join(f'<span class="mark" style="left: {x:.3f}%"></span>' for x in marks)
+    ticks = "".join(f'<span class="mark" style="left: {x:.3f}%"></span>' for x in marks)
     return (
         '<section id="player" aria-label="Playback" hidden>\n<div class="track">'
-        f'<div class="rail" style="background: {_rail(trajectory, phases)}" '
-        f'aria-hidden="true">{spans}</div>'
+        f'<div class="rail" style="background: {_rail(trajectory, spans)}" '
+        f'aria-hidden="true">{ticks}</div>'
         f'<input id="time" type="range" min="{start}" max="{end}" step="any" '
         f'value="{start}" aria-label="Time"></div>\n<div class="bar">'
         '<button id="play" type="button" aria-keyshortcuts="Space">Play</button>'
@@ -174,12 +177,12 @@ def _speeds(duration: float) -> str:
     )
 
 
-def _rail(trajectory: StrikeTrajectory, phases: Sequence[Phase]) -> str:
+def _rail(trajectory: StrikeTrajectory, spans: Sequence[Span]) -> str:
     """The slider's background: each mode's stretch in its colour."""
-    starts = [_share(trajectory, phase.start) for phase in phases]
+    starts = [_share(trajectory, span.start) for span in spans]
     stops = ", ".join(
-        f"{phase.colour} {start:.3f}% {end:.3f}%"
-        for phase, start, end in zip(phases, starts, [*starts[1:], 100.0], strict=True)
+        f"{span.colour} {start:.3f}% {end:.3f}%"
+        for span, start, end in zip(spans, starts, [*starts[1:], 100.0], strict=True)
     )
     return escape(f"linear-gradient(to right, {stops})")
 

@@ -29,7 +29,7 @@ from zygopin.obstacle_drawing import (
     obstacle_noun,
     obstacle_paint,
 )
-from zygopin.playback import Motion, Phase, Track
+from zygopin.playback import Playback, Span, Track
 from zygopin.scene import direction_pairs, keys
 from zygopin.solids import Paint
 from zygopin.strike_caption import controls, strike_caption
@@ -84,7 +84,7 @@ def export_strike(
         given = type(trajectory).__name__
         raise ParameterError("trajectory", given, "a StrikeTrajectory", remedy)
     title = _default_title(trajectory) if title is None else title
-    frames, phases = kept_frames(trajectory), mode_phases(trajectory)
+    frames, spans = kept_frames(trajectory), mode_spans(trajectory)
     view = strike_view(trajectory)
     recorder = Recorder()
     set_stage(recorder, view)
@@ -92,15 +92,15 @@ def export_strike(
     draw_foot(canvas, trajectory.foot, trajectory.bones[0])
     draw_obstacle(canvas, trajectory.obstacle, drawn_stretch(trajectory))
     _draw_ways(canvas, trajectory, frames)
-    motion = Motion(
+    playback = Playback(
         trajectory.times[frames],
         _tracks(trajectory, frames),
-        phases,
+        spans,
         _draw_contacts(canvas, trajectory),
     )
     colours = _legend(trajectory, draw_axes(canvas, view))
-    words = strike_caption(trajectory, title, phases[-1].colour, colours)
-    player = Player(motion.data(canvas), controls(trajectory, phases))
+    words = strike_caption(trajectory, title, spans[-1].colour, colours)
+    player = Player(playback.data(canvas), controls(trajectory, spans))
     return write_text(path, page(recorder, view, title, words, player))
 
 
@@ -124,20 +124,20 @@ def kept_frames(trajectory: StrikeTrajectory) -> NDArray[np.intp]:
     return np.flatnonzero(kept)
 
 
-def mode_phases(trajectory: StrikeTrajectory) -> list[Phase]:
+def mode_spans(trajectory: StrikeTrajectory) -> list[Span]:
     """The modes over time, as a page shows them.
 
     Args:
         trajectory: The strike.
 
     Returns:
-        A phase for each stretch of one mode.
+        A span for each stretch of one mode.
     """
     modes = trajectory.modes
     starts = [0, *(np.flatnonzero(modes[1:] != modes[:-1]) + 1).tolist()]
     paints = {str(mode): paint for mode, paint in MODE_PAINTS.items()}
     return [
-        Phase(float(trajectory.times[i]), mode.upper(), paints[mode].css)
+        Span(float(trajectory.times[i]), mode.upper(), paints[mode].css)
         for i, mode in ((i, str(modes[i])) for i in starts)
     ]
 

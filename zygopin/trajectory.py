@@ -9,14 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin.foot import Foot
+from zygopin.grip import Grip
 from zygopin.obstacle import Obstacle
 
 Mode = Literal["free", "closing", "locked"]
 """A mode of the hybrid automaton (MODEL.md, section 6)."""
 
-EventKind = Literal["engaged", "stopped", "locked", "released"]
-"""The guard was met; a phalanx met the obstacle while closing; the tendon locked;
-it was released."""
+EventKind = Literal["engaged", "stopped", "crossed", "locked", "released"]
+"""The guard was met; a phalanx met the obstacle, or another toe, while closing; the
+tendon locked; it was released."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +58,7 @@ class StrikeTrajectory:
         bones: Bones in the world's frame [m], shape (n, P, 2, 3).
         clearance: Signed clearance of each phalanx [m], shape (n, P).
         events: What happened, in order.
+        grip: The contacts at the end.
     """
 
     foot: Foot
@@ -71,3 +73,4 @@ class StrikeTrajectory:
     bones: NDArray[np.float64]
     clearance: NDArray[np.float64]
     events: tuple[StrikeEvent, ...]
+    grip: Grip

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -58,6 +58,7 @@ class ValidationRow:
         bound: What it is held against [m].
         slack: What the value may differ from the bound, where they shall be equal
             [m]; None: the bound is an upper one.
+        pose: Where a finger that can turn stood; None: one that cannot.
     """
 
     finger: str
@@ -67,6 +68,7 @@ class ValidationRow:
     value: float
     bound: float
     slack: float | None = None
+    pose: names.Pose | None = None
 
     @property
     def ok(self) -> bool:
@@ -116,6 +118,11 @@ def validate_foot(
     - `limit`: d_H(Rₖ, R∞) for three levels, Rₖ from Pinocchio, R∞ as R_m and the
       tail ρ^−m/(ρ−1) that remains; equal to ρ^−k/(ρ−1) (MODEL.md, section 3).
 
+    A finger that can turn stands at one limit of its reversal joint in these rows.
+    `grid` and `words` follow once more with the joint at its other limit, against the
+    set turned to the reversed azimuth: the rows of the pose `spread`. The other two
+    measure the same joints again, and would say nothing new.
+
     Args:
         foot: The foot.
         levels: Equal levels of each control; fewer for fingers that would have more
@@ -125,7 +132,7 @@ def validate_foot(
         rng: Where random controls come from; None: a generator of seed 0.
 
     Returns:
-        The rows, four for each finger.
+        The rows, four for each finger and two more where it turns.
 
     Raises:
         ParameterError: A number is out of range.
@@ -153,7 +160,7 @@ def iter_validation(
         rng: Where random controls come from; None: a generator of seed 0.
 
     Returns:
-        An iterator over four rows for each finger.
+        An iterator over `row_count(foot)` rows.
 
     Raises:
         ParameterError: A number is out of range.
@@ -166,44 +173,77 @@ def iter_validation(
     return _rows(model, levels, samples, rng)
 
 
+def row_count(foot: Foot) -> int:
+    """How many rows the validation of a foot has.
+
+    Args:
+        foot: The foot.
+
+    Returns:
+        Four for each finger, and two more for each that turns.
+    """
+    turning = sum(map(names.is_reversible, foot.fingers))
+    return len(CHECKS) * len(foot.fingers) + 2 * turning
+
+
 def _rows(
     model: FootModel, levels: int, samples: int, rng: np.random.Generator
 ) -> Iterator[ValidationRow]:
-    """Four rows for each finger."""
+    """The rows of each finger: as it stands, then turned."""
     foot = model.foot
     for finger in foot.fingers:
         count = levels_within(finger.phalanges, MOST_CONFIGURATIONS, levels)
         reach = finger_reach(foot, finger.name, count)
-        yield from _grid_rows(model, reach)
+        yield from _grid_rows(model, reach, _first_pose(finger))
         yield _random_row(model, reach, rng.uniform(size=(samples, reach.depth)))
         yield _limit_row(model, finger)
+        if names.is_reversible(finger):
+            yield from _grid_rows(model, reach, "spread")
 
 
-def _grid_rows(model: FootModel, reach: FingerReach) -> Iterator[ValidationRow]:
+def _first_pose(finger: Finger) -> names.Pose | None:
+    """The pose of a finger at its own azimuth."""
+    return "zygodactyl" if names.is_reversible(finger) else None
+
+
+def _in_space(reach: FingerReach, pose: names.Pose | None) -> NDArray[np.float64]:
+    """Points of a set [m], shape (N, 3), in a pose of its finger."""
+    finger, foot = reach.finger, reach.foot
+    if pose != "spread" or finger.reversed_azimuth is None:
+        return reach.in_space()
+    turned = replace(finger, azimuth=finger.reversed_azimuth)
+    fingers = (turned if each == finger else each for each in foot.fingers)
+    return replace(reach, foot=foot.replace(fingers=tuple(fingers))).in_space()
+
+
+def _grid_rows(
+    model: FootModel, reach: FingerReach, pose: names.Pose | None
+) -> Iterator[ValidationRow]:
     """The whole grid as a set, and point by point through the words."""
     name, levels = reach.finger.name, reach.plane.levels
     bound = EQUALITY * finger_length(model.foot, name)
     grid = _grid(levels, reach.depth)
-    tips, points = _tips(model, reach.finger, grid), reach.in_space()
+    tips, points = _tips(model, reach.finger, grid, pose), _in_space(reach, pose)
     size = len(levels), len(grid)
     whole = hausdorff_distance(tips, points).value
-    yield ValidationRow(name, "grid", *size, whole, bound)
+    yield ValidationRow(name, "grid", *size, whole, bound, pose=pose)
     words = reach.plane.words(np.arange(len(points)))
     places = tuple(np.searchsorted(levels, words).T)
     order = np.ravel_multi_index(places, (len(levels),) * reach.depth)
     apart = float(np.linalg.norm(tips[order] - points, axis=-1).max())
-    yield ValidationRow(name, "words", *size, apart, bound)
+    yield ValidationRow(name, "words", *size, apart, bound, pose=pose)
 
 
 def _random_row(
     model: FootModel, reach: FingerReach, controls: NDArray[np.float64]
 ) -> ValidationRow:
     """Controls anywhere in [0, 1] against the bound of the grid."""
-    tips = _tips(model, reach.finger, controls)
+    pose = _first_pose(reach.finger)
+    tips = _tips(model, reach.finger, controls, pose)
     strayed = directed_distance(tips, reach.in_space()).value
     size = len(reach.plane.levels), len(controls)
     name = reach.finger.name
-    return ValidationRow(name, "random", *size, strayed, reach.grid_bound)
+    return ValidationRow(name, "random", *size, strayed, reach.grid_bound, pose=pose)
 
 
 def _limit_row(model: FootModel, finger: Finger) -> ValidationRow:
@@ -213,7 +253,9 @@ def _limit_row(model: FootModel, finger: Finger) -> ValidationRow:
     near = finger_reach(foot, finger.name, TAIL_LEVELS)
     deeper = max(TAIL_DEPTH, depth + 1)
     far = finger_reach(foot, finger.name, TAIL_LEVELS, depth=deeper)
-    measured = hausdorff_distance(_tips(model, finger, grid), far.in_space()).value
+    pose = _first_pose(finger)
+    tips = _tips(model, finger, grid, pose)
+    measured = hausdorff_distance(tips, far.in_space()).value
     return ValidationRow(
         finger.name,
         "limit",
@@ -222,6 +264,7 @@ def _limit_row(model: FootModel, finger: Finger) -> ValidationRow:
         measured + far.depth_bound,
         near.depth_bound,
         EQUALITY * foot.scale / (foot.rho - 1),
+        pose,
     )
 
 
@@ -232,15 +275,21 @@ def _grid(levels: NDArray[np.float64], phalanges: int) -> NDArray[np.float64]:
 
 
 def _tips(
-    model: FootModel, finger: Finger, controls: NDArray[np.float64]
+    model: FootModel,
+    finger: Finger,
+    controls: NDArray[np.float64],
+    pose: names.Pose | None,
 ) -> NDArray[np.float64]:
     """Tips of a finger in Pinocchio [m], shape (N, 3), between the URDF's limits."""
     robot = model.model
-    joints = [robot.getJointId(name) for name in names.flexion_joints(finger)]
-    places = [robot.idx_qs[joint] for joint in joints]
-    low = robot.lowerPositionLimit[places]
-    angles = low + controls * (robot.upperPositionLimit[places] - low)
+    places = model.coordinates(names.flexion_joints(finger))
+    limits = robot.lowerPositionLimit, robot.upperPositionLimit
+    low, high = (limit[places] for limit in limits)
+    angles = low + controls * (high - low)
     data, q = robot.createData(), pin.neutral(robot)
+    if pose is not None:
+        turn = model.coordinates([names.reversal_joint(finger)])
+        q[turn] = limits[(pose == "spread") == (finger.reversal > 0)][turn]
     frame = robot.getFrameId(names.tip_link(finger), pin.FrameType.BODY)
     tip, found = data.oMf[frame].translation, np.empty((len(angles), 3))
     for row, out in zip(angles, found, strict=True):

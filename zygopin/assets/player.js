@@ -72,13 +72,13 @@
   }
 
   const inMilliseconds = (time) => (1e3 * time).toFixed(motion.decimals) + "\u00a0ms";
-  const phaseTimes = motion.phases.map(([time]) => time);
+  const spanTimes = motion.spans.map(([time]) => time);
 
   function show(time) {
     now = Math.min(Math.max(time, first), last);
     move(now);
     for (const { object, time: from } of latecomers) object.visible = now >= from;
-    const [, name, colour] = motion.phases[latest(phaseTimes, now)];
+    const [, name, colour] = motion.spans[latest(spanTimes, now)];
     if (mode.textContent !== name) mode.textContent = name;
     mode.style.backgroundColor = colour;
     clock.textContent = inMilliseconds(now);

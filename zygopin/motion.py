@@ -1,0 +1,378 @@
+"""Functions of time that bound how fast they change: control laws and base motions.
+
+Who steps over time can then be sure to miss nothing. Waypoints bound themselves. Of a
+callable nothing is known between two calls, so its bound is given with it, and held
+against it at `PROBES` instants.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.spatial.transform import Rotation, Slerp
+
+from zygopin import checks
+from zygopin.errors import ParameterError
+
+PROBES = 513
+"""Instants at which a callable's values and rates are looked at."""
+
+RATE_SLACK = 1e-6
+"""Relative excess over its bound that a callable's rate may have: rounding."""
+
+ORTHONORMAL = 1e-6
+"""How far a rotation's entries may be from a true one's: written with six digits."""
+
+ALWAYS = np.array([-np.inf, np.inf])
+"""The span of what never changes [s]."""
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Law:
+    """Values over time.
+
+    Attributes:
+        at: Values at instants of shape (n,), shape (n, …).
+        times: Ends of the m stretches that have a rate each, ascending [s], shape
+            (m + 1,): the law is defined from the first to the last.
+        rates: Bounds on how fast each value changes [1/s], shape (m, …).
+    """
+
+    at: Callable[[Floats], Floats]
+    times: Floats
+    rates: Floats
+
+    @classmethod
+    def constant(cls, value: ArrayLike) -> Law:
+        """What never changes.
+
+        Args:
+            value: The value, shape (…).
+
+        Returns:
+            The law.
+        """
+        values = checks.array("value", value)
+        zero = np.zeros((1, *values.shape))
+        return cls(lambda times: _repeated(values, len(times)), ALWAYS, zero)
+
+    @classmethod
+    def through(cls, times: ArrayLike, values: ArrayLike) -> Law:
+        """Straight lines through samples.
+
+        Args:
+            times: Instants, ascending [s], shape (n,), n ≥ 2.
+            values: Values at them, shape (n, …).
+
+        Returns:
+            The law.
+
+        Raises:
+            ParameterError: The times do not ascend, or the shapes do not fit.
+        """
+        instants = _as_times(times)
+        samples = _as_samples("values", values, instants)
+        steps = _per_step(np.diff(samples, axis=0), instants)
+        return cls(_lines(instants, samples), instants, np.abs(steps))
+
+    @classmethod
+    def of(
+        cls, function: Callable[[float], ArrayLike], *, end: float, rate: ArrayLike
+    ) -> Law:
+        """A function of time, from 0 to an end.
+
+        Args:
+            function: The value at an instant [s], shape (…).
+            end: Last instant, > 0 [s].
+            rate: Bound on how fast each value changes [1/s], scalar or shape (…).
+
+        Returns:
+            The law.
+
+        Raises:
+            ParameterError: The function fails within its span, its values have
+                different shapes or are not finite, or it breaks its bound.
+        """
+        instants = _probes(end)
+        at = _called("law", function)
+        samples = at(instants)
+        bound = np.broadcast_to(_as_bound("rate", rate), samples.shape[1:])
+        measured = _per_step(np.diff(samples, axis=0), instants)
+        _check_rates("rate", np.abs(measured), bound)
+        return cls(at, instants[[0, -1]], bound[None])
+
+    def rate(self, start: float, end: float) -> Floats:
+        """Bound on how fast each value changes between two instants.
+
+        Args:
+            start: The earlier one [s].
+            end: The later one [s].
+
+        Returns:
+            The bound [1/s], shape (…).
+        """
+        return _largest(self.times, self.rates, start, end)
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """Poses of the foot's base over time.
+
+    Attributes:
+        at: T_world_base at instants of shape (n,), shape (n, 4, 4).
+        times: Ends of the m stretches that have a bound each, ascending [s].
+        speeds: Bounds on the base's speed [m/s], shape (m,).
+        turn_rates: Bounds on its angular speed [rad/s], shape (m,).
+    """
+
+    at: Callable[[Floats], Floats]
+    times: Floats
+    speeds: Floats
+    turn_rates: Floats
+
+    @classmethod
+    def through(
+        cls,
+        times: ArrayLike,
+        positions: ArrayLike,
+        rotations: ArrayLike | None = None,
+    ) -> Motion:
+        """Straight lines through positions, and turns of constant speed.
+
+        Args:
+            times: Instants, ascending [s], shape (n,), n ≥ 2.
+            positions: Positions of the base [m], shape (n, 3).
+            rotations: R_world_base, shape (n, 3, 3); None: the world's axes. Each
+                turn goes the shorter way round.
+
+        Returns:
+            The motion.
+
+        Raises:
+            ParameterError: The times do not ascend, or the values do not fit.
+        """
+        instants = _as_times(times)
+        places = _as_samples("positions", positions, instants, (3,))
+        given = _repeated(np.eye(3), len(instants)) if rotations is None else rotations
+        turns = _as_samples("rotations", given, instants, (3, 3))
+        frames = Rotation.from_matrix(_checked_rotations("rotations", turns))
+        moves = np.linalg.norm(np.diff(places, axis=0), axis=1)
+        angles = (frames[:-1].inv() * frames[1:]).magnitude()
+        line, turn = _lines(instants, places), Slerp(instants, frames)
+        return cls(
+            lambda moments: _poses(line(moments), turn(moments).as_matrix()),
+            instants,
+            _per_step(moves, instants),
+            _per_step(angles, instants),
+        )
+
+    @classmethod
+    def of(
+        cls,
+        function: Callable[[float], ArrayLike],
+        *,
+        end: float,
+        speed: float,
+        turn_rate: float = 0.0,
+    ) -> Motion:
+        """A function of time, from 0 to an end.
+
+        Args:
+            function: T_world_base at an instant [s], shape (4, 4).
+            end: Last instant, > 0 [s].
+            speed: Bound on the base's speed [m/s].
+            turn_rate: Bound on its angular speed [rad/s].
+
+        Returns:
+            The motion.
+
+        Raises:
+            ParameterError: The function fails within its span, returns no pose, or
+                moves faster than its bounds.
+        """
+        instants = _probes(end)
+        at = _called("motion", function)
+        poses = at(instants)
+        if poses.shape[1:] != (4, 4):
+            remedy = "return T_world_base as a matrix"
+            raise ParameterError("motion.shape", poses.shape[1:], "(4, 4)", remedy)
+        frames = Rotation.from_matrix(_checked_rotations("motion", poses[:, :3, :3]))
+        bounds = [_as_bound("speed", speed), _as_bound("turn_rate", turn_rate)]
+        moves = np.linalg.norm(np.diff(poses[:, :3, 3], axis=0), axis=1)
+        angles = (frames[:-1].inv() * frames[1:]).magnitude()
+        for name, steps, bound in zip(
+            ("speed", "turn_rate"), (moves, angles), bounds, strict=True
+        ):
+            _check_rates(name, _per_step(steps, instants), bound)
+        return cls(at, instants[[0, -1]], bounds[0][None], bounds[1][None])
+
+    @classmethod
+    def resting(cls, pose: ArrayLike | None = None) -> Motion:
+        """A base that never moves.
+
+        Args:
+            pose: T_world_base, shape (4, 4); None: the world's frame.
+
+        Returns:
+            The motion.
+
+        Raises:
+            ParameterError: It is no pose.
+        """
+        place = checks.array("pose", np.eye(4) if pose is None else pose)
+        if place.shape != (4, 4):
+            remedy = "give T_world_base as a matrix"
+            raise ParameterError("pose.shape", place.shape, "(4, 4)", remedy)
+        _checked_rotations("pose", place[None, :3, :3])
+        zero = np.zeros(1)
+        return cls(lambda times: _repeated(place, len(times)), ALWAYS, zero, zero)
+
+    def bounds(self, start: float, end: float) -> tuple[float, float]:
+        """Bounds on the base's speeds between two instants.
+
+        Args:
+            start: The earlier one [s].
+            end: The later one [s].
+
+        Returns:
+            Speed [m/s] and angular speed [rad/s].
+        """
+        speed = _largest(self.times, self.speeds, start, end)
+        turn = _largest(self.times, self.turn_rates, start, end)
+        return float(speed), float(turn)
+
+
+def _largest(times: Floats, rates: Floats, start: float, end: float) -> Floats:
+    """The largest rate of the stretches that two instants lie in or between."""
+    first = np.clip(np.searchsorted(times, start, "right") - 1, 0, len(rates) - 1)
+    last = np.clip(np.searchsorted(times, end, "left"), first + 1, len(rates))
+    return np.asarray(rates[first:last].max(axis=0))
+
+
+def _lines(times: Floats, values: Floats) -> Callable[[Floats], Floats]:
+    """Linear interpolation of samples, along their first axis."""
+
+    def at(moments: Floats) -> Floats:
+        step = np.clip(np.searchsorted(times, moments, "right") - 1, 0, len(times) - 2)
+        share = (moments - times[step]) / (times[step + 1] - times[step])
+        share = share.reshape(-1, *[1] * (values.ndim - 1))
+        return np.asarray((1 - share) * values[step] + share * values[step + 1])
+
+    return at
+
+
+def _called(name: str, function: Callable[[float], ArrayLike]) -> Callable[..., Floats]:
+    """A function of one instant as one of several, with its failures named."""
+
+    def value(time: float) -> Floats:
+        try:
+            return checks.array(f"{name}({time:g})", function(time))
+        except ParameterError:
+            raise
+        except Exception as error:
+            allowed, remedy = "defined", "define it over its whole span"
+            problem = f"{type(error).__name__}: {error}"
+            raise ParameterError(
+                f"{name}({time:g})", problem, allowed, remedy
+            ) from error
+
+    def at(times: Floats) -> Floats:
+        values = [value(float(time)) for time in times]
+        shapes = {each.shape for each in values}
+        if len(shapes) > 1:
+            remedy = "return the same shape at all times"
+            raise ParameterError(f"{name}.shape", shapes, "one shape", remedy)
+        return np.array(values)
+
+    return at
+
+
+def _probes(end: float) -> Floats:
+    """Instants at which a callable is looked at, from 0 to its end [s]."""
+    last = checks.number(
+        "end",
+        end,
+        allowed="a time > 0",
+        where=lambda x: x > 0,
+        remedy="give seconds",
+    )
+    return np.linspace(0, last, PROBES)
+
+
+def _per_step(changes: Floats, times: Floats) -> Floats:
+    """Changes between instants as rates."""
+    steps = np.diff(times).reshape(-1, *[1] * (changes.ndim - 1))
+    return np.asarray(changes / steps)
+
+
+def _check_rates(name: str, measured: Floats, bound: Floats) -> None:
+    """A callable keeps to its bound between neighbouring probes."""
+    largest = measured.max(axis=0)
+    tiny = 1e-9 * np.abs(bound).max(initial=0.0) + 1e-12
+    good = bound >= largest * (1 - RATE_SLACK) - tiny
+    worst = f"at least the {largest.max():.4g} that the function has between two probes"
+    remedy = "raise the bound, or smooth the function"
+    checks.require(name, np.asarray(bound), good, worst, remedy)
+
+
+def _as_bound(name: str, value: ArrayLike) -> Floats:
+    """A checked bound ≥ 0 on a rate."""
+    bound = checks.array(name, value)
+    checks.require(name, bound, bound >= 0, "at least 0", "give a bound per second")
+    return bound
+
+
+def _as_times(times: ArrayLike) -> Floats:
+    """Checked instants, ascending, shape (n,), n ≥ 2."""
+    instants = checks.array("times", times)
+    if instants.ndim != 1 or len(instants) < 2:
+        remedy = "give at least two instants"
+        raise ParameterError("times.shape", instants.shape, "(n,), n ≥ 2", remedy)
+    rising = np.append(True, np.diff(instants) > 0)
+    checks.require("times", instants, rising, "ascending", "sort them, each once")
+    return instants
+
+
+def _as_samples(
+    name: str,
+    values: ArrayLike | Sequence[Any],
+    times: Floats,
+    shape: tuple[int, ...] | None = None,
+) -> Floats:
+    """Checked values, one for each instant."""
+    samples = checks.array(name, values)
+    wanted = samples.shape[1:] if shape is None else shape
+    if samples.shape != (len(times), *wanted):
+        allowed = f"({', '.join(map(str, (len(times), *wanted)))})"
+        remedy = "give one value for each instant"
+        raise ParameterError(f"{name}.shape", samples.shape, allowed, remedy)
+    return samples
+
+
+def _checked_rotations(name: str, matrices: Floats) -> Floats:
+    """Rotations, right-handed, shape (n, 3, 3)."""
+    products = matrices @ matrices.swapaxes(-1, -2)
+    off = np.abs(products - np.eye(3)).max(axis=(-2, -1))
+    good = (off <= ORTHONORMAL) & (np.linalg.det(matrices) > 0)
+    remedy = "give orthonormal, right-handed matrices"
+    checks.require(f"{name}, off a rotation by", off, good, "a rotation", remedy)
+    return matrices
+
+
+def _poses(positions: Floats, rotations: Floats) -> Floats:
+    """Homogeneous matrices, shape (n, 4, 4)."""
+    poses = np.zeros((len(positions), 4, 4))
+    poses[:, 3, 3] = 1.0
+    poses[:, :3, :3], poses[:, :3, 3] = rotations, positions
+    return poses
+
+
+def _repeated(value: Floats, count: int) -> Floats:
+    """One value, once for each instant."""
+    return np.asarray(np.broadcast_to(value, (count, *value.shape)))
