@@ -10,13 +10,18 @@ import numpy as np
 import pytest
 import umsgpack
 from browser import visit
-from strikes import CONTACT, END, LOCKED, made_strike
+from strikes import BALL, CONTACT, END, LOCKED, made_strike
 from test_scene import HOSTILE, extent, fingers
 
 from zygopin.branch import Branch
+from zygopin.closing import Closing
 from zygopin.errors import FileError, ParameterError
+from zygopin.flight import Flight
+from zygopin.foot import Foot
+from zygopin.motion import Motion
 from zygopin.obstacle import Box, Capsule, ConvexMesh
 from zygopin.obstacle_drawing import PREY, obstacle_extent
+from zygopin.strike import simulate_strike
 from zygopin.strike_caption import outcome_words, slowdown, toes_in_contact
 from zygopin.strike_scene import (
     MODE_PAINTS,
@@ -83,6 +88,7 @@ async function main() {
   note("slide", state());
   await goTo("#t=0.123"); note("address", state());
   await goTo("#t=nonsense"); note("nonsense", state());
+  await goTo("#t=0.1799999999999999"); note("nearly", state());
   await goTo("#t=9"); note("late", state());
   press(" "); note("again", [state()[0], state()[2] < 0.1]); press(" ");
   note("focus", press(" ", find("play")));
@@ -183,6 +189,22 @@ def test_file_holds_the_bones_at_every_event(samples, tmp_path):
         ends = starts + strike.foot.lengths[:, None] * along[here]
         np.testing.assert_allclose(starts, bones[:, 0], atol=1e-6 * view.unit)
         np.testing.assert_allclose(ends, bones[:, 1], atol=4e-6 * view.unit)
+
+
+def test_a_simulated_strike_is_held_frame_by_frame(tmp_path):
+    foot = Foot.preset("owl")
+    motion = Motion.through([0, 0.16], [[-0.1, 0, 0.2], [0, 0, 0]])
+    closing = Closing("paper", shape=lambda time: 0.2 + 0.8 * time / 0.04)
+    strike = simulate_strike(foot, BALL, Flight(motion), closing=closing, frames=60)
+    scene = scene_of(export_strike(strike, tmp_path / "a.html"))
+    view, (places, along) = strike_view(strike), played(scene)
+    starts = view.target + view.unit * places
+    ends = starts + foot.lengths[:, None] * along
+    assert len(strike.times) == len(places) > len(np.unique(strike.times))
+    np.testing.assert_allclose(starts, strike.bones[:, :, 0], atol=1e-6 * view.unit)
+    np.testing.assert_allclose(ends, strike.bones[:, :, 1], atol=4e-6 * view.unit)
+    names = [name for _, name, _ in scene["motion"]["spans"]]
+    assert names == ["FREE", "CLOSING", "LOCKED"]
 
 
 def test_every_solid_of_the_foot_moves_from_where_it_was_drawn(page):
@@ -290,10 +312,13 @@ def test_a_record_of_one_instant_is_shown_too(strike, tmp_path):
 def test_toes_in_contact_are_counted_by_finger(strike):
     least = np.full_like(strike.clearance, 0.001)
     least[-1, [0, 1, 3]] = 0.0
-    touched = dataclasses.replace(strike, clearance=least)
+    outside = dataclasses.replace(strike.grip, penetrating=np.zeros(14, bool))
+    touched = dataclasses.replace(strike, clearance=least, grip=outside)
     assert toes_in_contact(touched) == 2
     words = "Locked at the end: 2 of 4 toes in contact with the ball"
     assert outcome_words(touched) == words
+    sunk = dataclasses.replace(touched, grip=strike.grip)
+    assert outcome_words(sunk) == f"{words}, some inside it"
 
 
 @pytest.mark.parametrize(
@@ -412,6 +437,7 @@ def test_controls_do_what_they_say(script, strike):
         "slide": ["Play", "LOCKED", LOCKED],
         "address": ["Play", "FREE", 0.123],
         "nonsense": ["Play", "FREE", 0.123],
+        "nearly": ["Play", "CLOSING", 0.18],
         "late": last,
         "again": ["Pause", True],
         "focus": True,

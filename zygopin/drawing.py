@@ -198,18 +198,19 @@ def draw_contacts(canvas: Canvas, report: GraspReport) -> None:
         canvas.arrow(f"{path}/normal", np.stack([point, tip]), 0.45 * size, paint)
 
 
-def draw_axes(canvas: Canvas, view: View) -> float:
+def draw_axes(canvas: Canvas, view: View, right: float = 0.68) -> float:
     """Draw the directions x, y and z in a corner, as long as a round length.
 
     Args:
         canvas: What they are drawn on.
         view: Whose frame's corner it is.
+        right: Place across the frame, from -1 to 1.
 
     Returns:
         The arms' length [m].
     """
     arm = _round_length(0.24 * view.unit)
-    corner = view.corner(0.68, -0.86)
+    corner = view.corner(right, -0.86)
     for name, direction, paint in zip("xyz", np.eye(3), AXIS_PAINTS, strict=True):
         ends = np.stack([corner, corner + arm * direction])
         canvas.arrow(f"axes/{name}", ends, 0.008 * view.unit, paint)

@@ -76,6 +76,7 @@ class Playback:
         """
         return {
             "times": [page_time(time) for time in self.times],
+            "timeDecimals": TIME_DECIMALS,
             "decimals": clock_decimals(self.times),
             "quantum": float(f"1e-{DECIMALS}"),
             "tracks": [_addressed(canvas, track.parts) for track in self.tracks],

@@ -65,7 +65,8 @@ def outcome_words(trajectory: StrikeTrajectory) -> str:
     toes, count = toes_in_contact(trajectory), len(trajectory.foot.fingers)
     noun = obstacle_noun(trajectory.obstacle)
     held = f"{toes} of {count} toes in contact with" if toes else "no toe meets"
-    return f"{mode} at the end: {held} the {noun}"
+    inside = ", some inside it" if np.any(trajectory.grip.penetrating) else ""
+    return f"{mode} at the end: {held} the {noun}{inside}"
 
 
 def strike_caption(
@@ -110,7 +111,7 @@ def strike_rows(trajectory: StrikeTrajectory) -> dict[str, str]:
     """
     lengths = Lengths(trajectory.foot.size)
     least = float(np.min(trajectory.clearance[-1]))
-    inside = least < -trajectory.tolerance
+    inside = bool(np.any(trajectory.grip.penetrating))
     return {
         "Reading": READING_WORDS.get(trajectory.reading, trajectory.reading),
         "Lasts": _milliseconds(trajectory, trajectory.times[-1] - trajectory.times[0]),

@@ -53,6 +53,10 @@ MODE_PAINTS: dict[Mode, Paint] = {
 }
 """White letters can be read on each."""
 
+AXES_AT = -0.72
+"""Place of the directions across the frame: at the left, under the hind toes, whose
+sweep is shorter below than that of the front toes."""
+
 CONTACT = STABLE
 FADED = 0.4
 """Share of white in the colour of a talon's way."""
@@ -98,7 +102,7 @@ def export_strike(
         spans,
         _draw_contacts(canvas, trajectory),
     )
-    colours = _legend(trajectory, draw_axes(canvas, view))
+    colours = _legend(trajectory, draw_axes(canvas, view, AXES_AT))
     words = strike_caption(trajectory, title, spans[-1].colour, colours)
     player = Player(playback.data(canvas), controls(trajectory, spans))
     return write_text(path, page(recorder, view, title, words, player))

@@ -132,10 +132,11 @@
     pressed[event.key]();
   }
 
-  // Whether the address names a time: "#t=0.123", in seconds.
+  // Whether the address names a time: "#t=0.123", in seconds. It is rounded as the
+  // frames' times are, so that an event's own time shows the event.
   function obeyAddress() {
     const named = /^#t=([-+0-9.e]+)$/i.exec(location.hash);
-    const time = named ? Number(named[1]) : NaN;
+    const time = named ? Number(Number(named[1]).toFixed(motion.timeDecimals)) : NaN;
     if (Number.isFinite(time)) jumpTo(time);
     return Number.isFinite(time);
   }
