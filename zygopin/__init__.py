@@ -10,6 +10,7 @@ from importlib import import_module
 from importlib.metadata import version as _version
 
 _HOMES = {
+    "attack": ("attack_flight",),
     "branch": ("Branch", "branch_axis"),
     "closing": ("Closing",),
     "control_system": ("ControlSystem",),
@@ -45,6 +46,8 @@ _HOMES = {
     "solid_clearance": ("obstacle_clearance",),
     "spread": ("SpreadStudy", "spread_study", "strike_area", "talon_hull_area"),
     "strike": ("simulate_strike",),
+    "strike_output": ("save_strike",),
+    "strike_scene": ("export_strike",),
     "tendon": ("Contact", "TendonFoot"),
     "trajectory": ("StrikeEvent", "StrikeTrajectory"),
     "validation": ("ReachValidation", "ValidationRow", "validate_foot"),
@@ -93,6 +96,7 @@ __all__ = [
     "ValidationRow",
     "ZygopinError",
     "__version__",
+    "attack_flight",
     "attractor",
     "branch_axis",
     "check_grasp",
@@ -100,6 +104,7 @@ __all__ = [
     "directed_distance",
     "export_reach_scene",
     "export_scene",
+    "export_strike",
     "find_word",
     "finger_reach",
     "forward_kinematics",
@@ -112,6 +117,7 @@ __all__ = [
     "plan_perch",
     "preset_names",
     "reachable_set",
+    "save_strike",
     "simulate_strike",
     "spread_study",
     "strike_area",

@@ -29,7 +29,7 @@ LEVEL, DESCENT, BEYOND = 2.0, 3.0, 1.0
 nothing is met, over the foot's size."""
 
 
-def attack(
+def attack_flight(
     foot: Foot,
     target: ArrayLike = (0.0, 0.0, 0.0),
     *,
@@ -57,7 +57,8 @@ def attack(
     Raises:
         ParameterError: A value is out of range.
     """
-    place = checks.shaped("target", checks.array("target", target), (3,))
+    place = checks.array("target", target)
+    checks.shaped("target", place, (3,))
     speed = checks.number(
         "speed",
         speed,

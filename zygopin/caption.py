@@ -9,7 +9,7 @@ from html import escape
 
 import numpy as np
 
-from zygopin.branch import yaw_and_pitch
+from zygopin.branch import Branch, yaw_and_pitch
 from zygopin.foot import Foot
 from zygopin.grasp import GraspReport
 
@@ -135,8 +135,20 @@ def branch_rows(report: GraspReport) -> dict[str, str]:
     Returns:
         Plain texts.
     """
-    branch = report.branch
-    lengths = Lengths(report.foot.size)
+    return solid_branch_rows(report.branch, report.foot.size)
+
+
+def solid_branch_rows(branch: Branch, size: float) -> dict[str, str]:
+    """A branch's size and pose, name by value.
+
+    Args:
+        branch: One branch.
+        size: Size of the foot beside it [m].
+
+    Returns:
+        Plain texts.
+    """
+    lengths = Lengths(size)
     yaw, pitch = yaw_and_pitch(branch.axis)
     return {
         "Radius": lengths(float(branch.radius)),

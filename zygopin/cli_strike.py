@@ -166,14 +166,14 @@ def _target(prey: float | None, branch: float | None) -> Obstacle:
 
 def _flight(foot: Foot, miss: tuple[float, ...], slope: float, **course: Any) -> Flight:  # noqa: ANN401
     """The flight that the options describe."""
-    from zygopin.attack import attack
+    from zygopin.attack import attack_flight
 
     if len(miss) != 2:
         raise click.UsageError(f"--miss-mm has {len(miss)} numbers: give x,y.")
     if not 0 < slope <= math.radians(90.000001):
         shown = f"--slope-deg = {math.degrees(slope):.6g} is not above 0, up to 90"
         raise click.UsageError(f"{shown}: try 60.")
-    return attack(foot, (*miss, 0.0), slope=slope, **course)
+    return attack_flight(foot, (*miss, 0.0), slope=slope, **course)
 
 
 def _write(
