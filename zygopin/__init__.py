@@ -10,7 +10,7 @@ from importlib import import_module
 from importlib.metadata import version as _version
 
 _HOMES = {
-    "attack": ("attack_flight",),
+    "attack": ("Attack",),
     "branch": ("Branch", "branch_axis"),
     "closing": ("Closing",),
     "control_system": ("ControlSystem",),
@@ -60,6 +60,7 @@ __all__ = [
     "SRDF_PATH",
     "URDF_PATH",
     "XACRO_PATH",
+    "Attack",
     "Box",
     "Branch",
     "Capsule",
@@ -96,7 +97,6 @@ __all__ = [
     "ValidationRow",
     "ZygopinError",
     "__version__",
-    "attack_flight",
     "attractor",
     "branch_axis",
     "check_grasp",

@@ -1,6 +1,6 @@
 """Types of the names that `zygopin` loads lazily."""
 
-from zygopin.attack import attack_flight as attack_flight
+from zygopin.attack import Attack as Attack
 from zygopin.branch import Branch as Branch
 from zygopin.branch import branch_axis as branch_axis
 from zygopin.closing import Closing as Closing

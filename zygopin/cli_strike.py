@@ -21,9 +21,10 @@ from zygopin.options import (
 from zygopin.terminal import print_table, waiting
 
 if TYPE_CHECKING:  # commands load what they use, so that --help is quick
+    from zygopin.branch import Branch
     from zygopin.flight import Flight
     from zygopin.foot import Foot
-    from zygopin.obstacle import Obstacle
+    from zygopin.obstacle import Sphere
     from zygopin.trajectory import StrikeTrajectory
 
 _FILE = click.Path(path_type=Path)
@@ -126,7 +127,7 @@ def strike(
     The target is at the origin of the world; the foot flies level with clenched toes,
     opens them, and comes down on it. Nothing that it meets is missed, however thin.
 
-    Exit status 0: locked on the target, and feasible; 1: not; 2: bad input.
+    Exit status 0: locked, grasping and feasible; 1: not; 2: bad input.
     """
     from zygopin.closing import Closing
     from zygopin.strike import simulate_strike
@@ -135,11 +136,12 @@ def strike(
 
     html, png, save = (options.pop(name) for name in ("html", "png", "save"))
     target = _target(options.pop("prey"), options.pop("branch"))
+    radius = float(target.radius)
     course = {name: options.pop(name) for name in _COURSE}
     closing = Closing(*(options.pop(name) for name in _CLOSING))
     contact = Contact(options.pop("sensing"), engine=options.pop("engine"))
     foot = make_foot(**options)
-    flight = _flight(foot, **course)
+    flight = _flight(foot, radius, **course)
     with waiting("striking", quiet=as_json):
         found = simulate_strike(foot, target, flight, closing=closing, contact=contact)
     _write(found, html, png, save)
@@ -147,11 +149,11 @@ def strike(
         click.echo(json.dumps(strike_document(found), indent=2, allow_nan=False))
     else:
         _print(found, {"scene": html, "figure": png, "record": save})
-    held = found.modes[-1] == "locked" and found.grip.feasible
+    held = found.modes[-1] == "locked" and found.grip.feasible and found.grip.grasping
     context.exit(0 if held else 1)
 
 
-def _target(prey: float | None, branch: float | None) -> Obstacle:
+def _target(prey: float | None, branch: float | None) -> Sphere | Branch:
     """What is struck at: a ball or a branch, at the origin."""
     from zygopin.branch import Branch
     from zygopin.obstacle import Sphere
@@ -164,16 +166,23 @@ def _target(prey: float | None, branch: float | None) -> Obstacle:
     raise click.UsageError("give one of --prey-radius-mm and --branch-radius-mm.")
 
 
-def _flight(foot: Foot, miss: tuple[float, ...], slope: float, **course: Any) -> Flight:  # noqa: ANN401
+def _flight(
+    foot: Foot,
+    radius: float,
+    *,
+    miss: tuple[float, ...],
+    slope: float,
+    **course: float,
+) -> Flight:
     """The flight that the options describe."""
-    from zygopin.attack import attack_flight
+    from zygopin.attack import Attack
 
     if len(miss) != 2:
         raise click.UsageError(f"--miss-mm has {len(miss)} numbers: give x,y.")
-    if not 0 < slope <= math.radians(90.000001):
+    if not 0 < slope <= math.radians(90) + 1e-12:
         shown = f"--slope-deg = {math.degrees(slope):.6g} is not above 0, up to 90"
         raise click.UsageError(f"{shown}: try 60.")
-    return attack_flight(foot, (*miss, 0.0), slope=slope, **course)
+    return Attack(slope=slope, **course).flight(foot, (*miss, 0.0), radius=radius)
 
 
 def _write(
@@ -196,11 +205,12 @@ def _write(
 
 def _print(found: StrikeTrajectory, files: dict[str, Path | None]) -> None:
     """The log of the events, how it ended, and where the files are."""
-    from zygopin.strike_output import event_rows, grip_line
+    from zygopin.strike_output import event_rows, grip_line, target_line
 
-    click.echo(f"{found.foot.name}: {len(found.events)} events, {found.reading}")
-    headings = ("time [ms]", "toe", "phalanx", "what happens", "gap [µm]")
-    print_table(headings, event_rows(found), "rlrlr")
+    click.echo(f"{found.foot.name} strikes at a {target_line(found.obstacle)}")
+    if found.events:
+        headings = ("time [ms]", "toe", "phalanx", "what happens", "gap [µm]")
+        print_table(headings, event_rows(found), "rlrlr")
     click.echo(grip_line(found))
     for name, path in files.items():
         if path is not None:

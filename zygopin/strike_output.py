@@ -21,9 +21,9 @@ SERIES = ("times", "modes", "controls", "azimuths", "base", "bones", "clearance"
 """The arrays of a record, each with an entry for each instant."""
 
 _EVENTS = {
-    "engaged": "meets the obstacle: the tendon engages",
-    "stopped": "meets the obstacle, its joints stop",
-    "crossed": "meets another toe, its joints stop",
+    "engaged": "engages the tendon",
+    "stopped": "stops at the target",
+    "crossed": "stops at another toe",
     "locked": "the tendon locks",
     "released": "the tendon is released",
 }
@@ -108,7 +108,7 @@ def event_rows(trajectory: StrikeTrajectory) -> list[tuple[str, ...]]:
             event.finger or "",
             str(event.phalanx or ""),
             _EVENTS[event.kind],
-            "" if event.clearance is None else f"{event.clearance * 1e6:.3f}",
+            _gap(event),
         )
         for event in trajectory.events
     ]
@@ -125,11 +125,28 @@ def grip_line(trajectory: StrikeTrajectory) -> str:
     """
     grip, mode = trajectory.grip, str(trajectory.modes[-1])
     if not grip.fingers:
-        return f"{mode}: no toe touches the obstacle"
-    held = f"{len(grip.fingers)} toes touch: {', '.join(grip.fingers)}"
-    words = [mode, held, "grasping" if grip.grasping else "not grasping"]
+        words = [mode, "no toe touches the target"]
+    else:
+        held = f"{len(grip.fingers)} toes touch: {', '.join(grip.fingers)}"
+        words = [mode, held, "grasping" if grip.grasping else "not grasping"]
     words.append("feasible" if grip.feasible else f"not feasible: {_why(trajectory)}")
     return "; ".join(words)
+
+
+def target_line(obstacle: Obstacle) -> str:
+    """What an obstacle is, in a few words.
+
+    Args:
+        obstacle: The obstacle.
+
+    Returns:
+        Such as `sphere of radius 15 mm`.
+    """
+    name = type(obstacle).__name__.lower()
+    radius = getattr(obstacle, "radius", None)
+    if radius is None:
+        return name
+    return f"{name} of radius {float(radius) * 1e3:.6g} mm"
 
 
 def obstacle_mapping(obstacle: Obstacle) -> dict[str, Any]:
@@ -155,8 +172,15 @@ def _why(trajectory: StrikeTrajectory) -> str:
     """What makes the end infeasible."""
     if trajectory.grip.penetrating.any():
         depth = -float(trajectory.grip.clearance.min()) * 1e3
-        return f"a phalanx is {depth:.3g} mm inside the obstacle"
+        return f"a phalanx is {depth:.3g} mm inside the target"
     return "two toes pass through each other"
+
+
+def _gap(event: StrikeEvent) -> str:
+    """What was left to the obstacle [µm], where it was the obstacle that was met."""
+    if event.clearance is None or event.kind == "crossed":
+        return ""
+    return f"{event.clearance * 1e6:.3f}"
 
 
 def _event(event: StrikeEvent) -> dict[str, Any]:
