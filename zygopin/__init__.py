@@ -10,6 +10,7 @@ from importlib import import_module
 from importlib.metadata import version as _version
 
 _HOMES = {
+    "attack": ("Attack",),
     "branch": ("Branch", "branch_axis"),
     "closing": ("Closing",),
     "control_system": ("ControlSystem",),
@@ -45,6 +46,7 @@ _HOMES = {
     "solid_clearance": ("obstacle_clearance",),
     "spread": ("SpreadStudy", "spread_study", "strike_area", "talon_hull_area"),
     "strike": ("simulate_strike",),
+    "strike_output": ("save_strike",),
     "strike_scene": ("export_strike",),
     "tendon": ("Contact", "TendonFoot"),
     "trajectory": ("StrikeEvent", "StrikeTrajectory"),
@@ -58,6 +60,7 @@ __all__ = [
     "SRDF_PATH",
     "URDF_PATH",
     "XACRO_PATH",
+    "Attack",
     "Box",
     "Branch",
     "Capsule",
@@ -114,6 +117,7 @@ __all__ = [
     "plan_perch",
     "preset_names",
     "reachable_set",
+    "save_strike",
     "simulate_strike",
     "spread_study",
     "strike_area",

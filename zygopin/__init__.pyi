@@ -1,5 +1,6 @@
 """Types of the names that `zygopin` loads lazily."""
 
+from zygopin.attack import Attack as Attack
 from zygopin.branch import Branch as Branch
 from zygopin.branch import branch_axis as branch_axis
 from zygopin.closing import Closing as Closing
@@ -61,6 +62,7 @@ from zygopin.spread import spread_study as spread_study
 from zygopin.spread import strike_area as strike_area
 from zygopin.spread import talon_hull_area as talon_hull_area
 from zygopin.strike import simulate_strike as simulate_strike
+from zygopin.strike_output import save_strike as save_strike
 from zygopin.strike_scene import export_strike as export_strike
 from zygopin.tendon import Contact as Contact
 from zygopin.tendon import TendonFoot as TendonFoot

@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.spatial.transform import Rotation, Slerp
 
 from zygopin import checks
 from zygopin.errors import ParameterError
@@ -159,14 +158,14 @@ class Motion:
         """
         instants = _as_times(times)
         places = _as_samples("positions", positions, instants, (3,))
-        given = _repeated(np.eye(3), len(instants)) if rotations is None else rotations
-        turns = _as_samples("rotations", given, instants, (3, 3))
-        frames = Rotation.from_matrix(_checked_rotations("rotations", turns))
         moves = np.linalg.norm(np.diff(places, axis=0), axis=1)
-        angles = (frames[:-1].inv() * frames[1:]).magnitude()
-        line, turn = _lines(instants, places), Slerp(instants, frames)
+        line, turn, angles = _lines(instants, places), _level, np.zeros(len(moves))
+        if rotations is not None:
+            frames = _as_samples("rotations", rotations, instants, (3, 3))
+            _check_rotations("rotations", frames)
+            turn, angles = _turns(instants, frames), _angles(frames)
         return cls(
-            lambda moments: _poses(line(moments), turn(moments).as_matrix()),
+            lambda moments: _poses(line(moments), turn(moments)),
             instants,
             _per_step(moves, instants),
             _per_step(angles, instants),
@@ -202,10 +201,10 @@ class Motion:
         if poses.shape[1:] != (4, 4):
             remedy = "return T_world_base as a matrix"
             raise ParameterError("motion.shape", poses.shape[1:], "(4, 4)", remedy)
-        frames = Rotation.from_matrix(_checked_rotations("motion", poses[:, :3, :3]))
+        _check_rotations("motion", poses[:, :3, :3])
         bounds = [_as_bound("speed", speed), _as_bound("turn_rate", turn_rate)]
         moves = np.linalg.norm(np.diff(poses[:, :3, 3], axis=0), axis=1)
-        angles = (frames[:-1].inv() * frames[1:]).magnitude()
+        angles = _angles(poses[:, :3, :3])
         for name, steps, bound in zip(
             ("speed", "turn_rate"), (moves, angles), bounds, strict=True
         ):
@@ -229,7 +228,7 @@ class Motion:
         if place.shape != (4, 4):
             remedy = "give T_world_base as a matrix"
             raise ParameterError("pose.shape", place.shape, "(4, 4)", remedy)
-        _checked_rotations("pose", place[None, :3, :3])
+        _check_rotations("pose", place[None, :3, :3])
         zero = np.zeros(1)
         return cls(lambda times: _repeated(place, len(times)), ALWAYS, zero, zero)
 
@@ -355,14 +354,39 @@ def _as_samples(
     return samples
 
 
-def _checked_rotations(name: str, matrices: Floats) -> Floats:
-    """Rotations, right-handed, shape (n, 3, 3)."""
+def _check_rotations(name: str, matrices: Floats) -> None:
+    """Matrices are rotations, right-handed, shape (n, 3, 3)."""
     products = matrices @ matrices.swapaxes(-1, -2)
     off = np.abs(products - np.eye(3)).max(axis=(-2, -1))
     good = (off <= ORTHONORMAL) & (np.linalg.det(matrices) > 0)
     remedy = "give orthonormal, right-handed matrices"
     checks.require(f"{name}, off a rotation by", off, good, "a rotation", remedy)
-    return matrices
+
+
+def _level(moments: Floats) -> Floats:
+    """The world's axes at all instants, shape (n, 3, 3)."""
+    return _repeated(np.eye(3), len(moments))
+
+
+def _turns(times: Floats, matrices: Floats) -> Callable[[Floats], Floats]:
+    """Turns of constant speed from one rotation to the next."""
+    from scipy.spatial.transform import Rotation, Slerp  # only turns need SciPy
+
+    slerp = Slerp(times, Rotation.from_matrix(matrices))
+    return lambda moments: np.asarray(slerp(moments).as_matrix())
+
+
+def _angles(matrices: Floats) -> Floats:
+    """Angles between each rotation and the next [rad], shape (n − 1,)."""
+    steps = matrices[:-1].swapaxes(-1, -2) @ matrices[1:]
+    # From both sine and cosine: exact for small turns as for half ones.
+    sines = np.stack([steps[:, i, j] - steps[:, j, i] for i, j in _ASIDE], axis=-1)
+    cosines = np.trace(steps, axis1=-2, axis2=-1) - 1
+    return np.asarray(np.arctan2(np.linalg.norm(sines, axis=-1), cosines))
+
+
+_ASIDE = ((2, 1), (0, 2), (1, 0))
+"""Entries of a rotation whose differences are twice its axis times the sine."""
 
 
 def _poses(positions: Floats, rotations: Floats) -> Floats:

@@ -277,8 +277,9 @@ class TendonFoot:
         bone = np.stack([base[:3, 3], base[:3, 3] + step])[None]
         near = obstacle_clearance(bone, np.zeros(1), self.obstacle)
         if near.distance[0] < -self.tolerance:
-            depth, remedy = float(-near.distance[0]), "start the flight outside of it"
-            allowed = "at most 0: the obstacle already holds the base"
+            depth = float(-near.distance[0])
+            allowed = "at most 0 m: the obstacle already holds the base"
+            remedy = "start the flight outside of it"
             raise ParameterError("depth of the base", depth, allowed, remedy)
 
 
