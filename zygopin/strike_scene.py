@@ -57,6 +57,9 @@ AXES_AT = -0.72
 """Place of the directions across the frame: at the left, under the hind toes, whose
 sweep is shorter below than that of the front toes."""
 
+WHOLE, AXES = "/meshcat", "axes"
+"""Paths of all that is drawn, and of the directions in its corner."""
+
 CONTACT = STABLE
 FADED = 0.4
 """Share of white in the colour of a talon's way."""
@@ -67,7 +70,8 @@ def export_strike(
 ) -> Path:
     """Write a strike as one HTML file that plays it in meshcat's viewer.
 
-    The page plays once, slowed down, and stops; a slider, the keyboard and a list of
+    The eye flies with the foot until the target is in sight. The page plays once,
+    slowed down, and stops; a slider, the keyboard and a list of
     events go to any time, and `#t=0.123` after its address opens it at that time [s].
     The file asks for nothing: it works offline. The same strike gives the same bytes.
 
@@ -98,7 +102,7 @@ def export_strike(
     _draw_ways(canvas, trajectory, frames)
     playback = Playback(
         trajectory.times[frames],
-        _tracks(trajectory, frames),
+        [*_following(trajectory, canvas), *_tracks(trajectory, frames)],
         spans,
         _draw_contacts(canvas, trajectory),
     )
@@ -155,6 +159,18 @@ def strike_view(trajectory: StrikeTrajectory) -> View:
     Returns:
         The view, from the earliest instant whose frame leaves the final foot large.
     """
+    return _view_since(trajectory, kept_frames(trajectory)[framed_since(trajectory) :])
+
+
+def framed_since(trajectory: StrikeTrajectory) -> int:
+    """From when on the view has the whole foot in its frame.
+
+    Args:
+        trajectory: The strike.
+
+    Returns:
+        The place among `kept_frames`.
+    """
     frames = kept_frames(trajectory)
     low, high = 0, len(frames) - 1
     while low < high:
@@ -163,7 +179,7 @@ def strike_view(trajectory: StrikeTrajectory) -> View:
             low = middle + 1
         else:
             high = middle
-    return _view_since(trajectory, frames[low:])
+    return low
 
 
 def drawn_stretch(trajectory: StrikeTrajectory) -> tuple[float, float]:
@@ -213,6 +229,24 @@ def _tracks(trajectory: StrikeTrajectory, frames: NDArray[np.intp]) -> list[Trac
     poses = np.moveaxis(phalanx_poses(trajectory, frames), 1, 0)
     parts = moved_parts(trajectory.foot)
     return [Track(*pair) for pair in zip(poses, parts, strict=True)]
+
+
+def _following(trajectory: StrikeTrajectory, canvas: Canvas) -> list[Track]:
+    """The whole scene moves back as long as the foot has not come into the frame.
+
+    So the eye flies with the foot, and then stays on the target. The directions move
+    forth, and so stay where they are.
+    """
+    places = trajectory.base[kept_frames(trajectory), :3, 3]
+    since = framed_since(trajectory)
+    ahead = places - places[since]
+    ahead[since:] = 0.0
+    tracks = []
+    for path, shift in ((WHOLE, -ahead), (AXES, ahead)):
+        poses = np.tile(np.eye(4), (len(places), 1, 1))
+        poses[:, :3, 3] = canvas.origin + shift
+        tracks.append(Track(poses, [(path, 0.0)]))
+    return tracks
 
 
 def _view_since(trajectory: StrikeTrajectory, frames: NDArray[np.intp]) -> View:
