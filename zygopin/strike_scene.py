@@ -71,9 +71,9 @@ def export_strike(
     """Write a strike as one HTML file that plays it in meshcat's viewer.
 
     The eye flies with the foot until the target is in sight. The page plays once,
-    slowed down, and stops; a slider, the keyboard and a list of
-    events go to any time, and `#t=0.123` after its address opens it at that time [s].
-    The file asks for nothing: it works offline. The same strike gives the same bytes.
+    slowed down, and stops; a slider, the keyboard and a list of events go to any time,
+    and `#t=0.123` after its address opens it at that time [s]. The file asks for
+    nothing: it works offline. The same strike gives the same bytes.
 
     Args:
         trajectory: The strike.
