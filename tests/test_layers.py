@@ -66,6 +66,7 @@ LAYERS = (
     "caption",
     "scene",
     "reach_scene",
+    "figures",
     "plots",
     "output",
     "reach_output",
