@@ -54,6 +54,10 @@ from zygopin.reach import finger_reach as finger_reach
 from zygopin.reach_inverse import InverseReach as InverseReach
 from zygopin.reach_inverse import inverse_reach as inverse_reach
 from zygopin.reach_scene import export_reach_scene as export_reach_scene
+from zygopin.remark import ContactKept as ContactKept
+from zygopin.remark import Counterexample as Counterexample
+from zygopin.remark import contact_kept as contact_kept
+from zygopin.remark import counterexample as counterexample
 from zygopin.scene import export_scene as export_scene
 from zygopin.solid_clearance import obstacle_clearance as obstacle_clearance
 from zygopin.spread import SpreadStudy as SpreadStudy
