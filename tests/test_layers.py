@@ -71,6 +71,8 @@ LAYERS = (
     "reach_scene",
     "figures",
     "plots",
+    "strike_plots",
+    "remark_plots",
     "output",
     "reach_output",
     "options",

@@ -17,6 +17,7 @@ from zygopin import (
     Capsule,
     Closing,
     ConvexMesh,
+    Finger,
     Flight,
     Foot,
     FootModel,
@@ -83,10 +84,10 @@ def cases(draw, low=0.1, high=2 * math.pi - 0.05):
 
 
 @given(cases())
-@settings(max_examples=60)
+@settings(max_examples=25)
 def test_intervals_are_where_dense_sampling_finds_contact(case):
     foot, obstacle = case
-    found, values = contact_kept(foot, obstacle), np.linspace(0, 1, 201)
+    found, values = contact_kept(foot, obstacle), np.linspace(0, 1, 101)
     gaps = sampled(foot, obstacle, values)
     rounding = 1e-9
     for finger, gap in zip(foot.fingers, gaps.T, strict=True):
@@ -96,10 +97,10 @@ def test_intervals_are_where_dense_sampling_finds_contact(case):
 
 
 @given(cases(high=math.pi - 1e-3))
-@settings(max_examples=60)
+@settings(max_examples=25)
 def test_a_finger_meets_a_convex_obstacle_in_one_interval(case):
     foot, obstacle = case
-    values = np.linspace(0, 1, 301)
+    values = np.linspace(0, 1, 151)
     for contact in (sampled(foot, obstacle, values) <= 0).T:
         changes = np.diff(contact.astype(int))
         assert np.sum(changes == 1) + contact[0] <= 1
@@ -108,7 +109,7 @@ def test_a_finger_meets_a_convex_obstacle_in_one_interval(case):
 
 
 @given(cases(high=math.pi - 1e-3))
-@settings(max_examples=60)
+@settings(max_examples=25)
 def test_a_finger_keeps_contact_if_and_only_if_it_has_it_at_both_ends(case):
     foot, obstacle = case
     found = contact_kept(foot, obstacle)
@@ -120,7 +121,7 @@ def test_a_finger_keeps_contact_if_and_only_if_it_has_it_at_both_ends(case):
 
 
 @given(cases(low=math.pi + 1e-3))
-@settings(max_examples=60)
+@settings(max_examples=25)
 def test_beyond_half_a_turn_a_second_interval_needs_both_ends(case):
     foot, obstacle = case
     for found in contact_kept(foot, obstacle).intervals.values():
@@ -133,15 +134,14 @@ def test_a_toe_that_comes_round_meets_a_box_twice():
     foot = PAPER.replace(omega=1.9 * math.pi, splay=0.0)
     box = Box((0.2, 0.2, 0.6), (0.4, 0.0, 0.0))
     found = contact_kept(foot, box).intervals["finger3"]
-    corner = math.atan(0.3 / 0.3) / foot.omega
-    inner = math.atan(0.3 / 0.3)
+    corner = math.atan(0.3 / 0.3) / foot.omega  # its inner corners, at 45°
     assert len(found) == 2
     assert found[0] == pytest.approx((0.0, corner), abs=1e-5)
-    assert found[1] == pytest.approx((2 / 1.9 - inner / foot.omega, 1.0), abs=1e-5)
+    assert found[1] == pytest.approx((2 / 1.9 - corner, 1.0), abs=1e-5)
 
 
 @given(cases(), st.integers(0, 2**32))
-@settings(max_examples=30)
+@settings(max_examples=15)
 def test_an_obstacle_that_holds_the_base_is_never_lost(case, seed):
     foot, obstacle = case
     rng = np.random.default_rng(seed)
@@ -184,14 +184,18 @@ def test_azimuths_turn_the_toes():
 
 
 def test_fingers_keep_together_what_none_keeps_alone():
-    bar = Capsule(0.02, [(0.0, 0.3, -0.02), (0.0, -0.3, -0.02)])
-    foot = PAPER.replace(splay=0.0, omega=0.75 * math.pi)
-    low = Box((0.8, 0.2, 0.2), (-0.05, 0.0, -0.3))
-    found = contact_kept(foot, low)
-    assert not found.keeps(0.0, 0.1)
-    (first, last), *_ = found.together
-    assert found.keeps(first, last)
-    assert contact_kept(foot, bar).kept
+    pitches = {"low": 0.0, "middle": -0.15, "high": -0.3}
+    fingers = (Finger(name, 2, 0.0, pitch) for name, pitch in pitches.items())
+    foot = PAPER.replace(fingers=tuple(fingers), omega=0.45)
+    place = 0.5 * np.exp(-0.1j)
+    ball = Sphere(0.5 * math.sin(0.1), (place.real, 0.0, place.imag))
+    found = contact_kept(foot, ball)
+    for name, pitch in pitches.items():
+        expected = np.clip(np.array([0.0, 0.2]) - pitch, 0, 0.45) / 0.45
+        assert found.intervals[name][0] == pytest.approx(expected, abs=1e-4)
+    assert found.together == ((0.0, 1.0),)
+    assert found.kept
+    assert found.lost_at == math.inf
 
 
 def test_union_of_intervals_worked_by_hand():
@@ -232,7 +236,7 @@ def test_the_counterexample_worked_by_hand():
     reals(0.3, 0.6),
     st.integers(1, 4),
 )
-@settings(max_examples=30)
+@settings(max_examples=15)
 def test_contact_ends_where_the_closed_form_says(name, lost_at, finger):
     found = counterexample(Foot.preset(name), finger=finger, lost_at=lost_at)
     contact = found.contact
@@ -298,7 +302,7 @@ def test_bad_values_are_named():
     ball = Sphere(0.1, (0.3, 0, 0))
     with pytest.raises(ParameterError, match="obstacle"):
         contact_kept(PAPER, "ball")
-    with pytest.raises(ParameterError, match="tolerance = .* is not at least"):
+    with pytest.raises(ParameterError, match=r"tolerance = .* is not at least"):
         contact_kept(PAPER, ball, tolerance=1e-12)
     with pytest.raises(ParameterError, match="azimuths"):
         contact_kept(PAPER, ball, azimuths=[0.0, 1.0])
@@ -317,12 +321,11 @@ def test_a_foot_too_thick_for_a_ball_is_refused():
 
 def test_a_ball_that_another_toe_keeps_is_refused():
     wide = PAPER.replace(splay=0.0, thickness=0.1)
-    with pytest.raises(ParameterError, match="v at which finger"):
+    with pytest.raises(ParameterError, match="v at which other meets it"):
         counterexample(wide.replace(fingers=twins()), lost_at=0.6)
 
 
 def twins():
-    """Two fingers a little apart in pitch, so that the second meets the ball later."""
-    first, *_ = PAPER.fingers
-    changed = {"name": "other", "phalanges": 2, "azimuth": first.azimuth}
-    return (type(first)(**changed, orientation=-0.1), first)
+    """Two fingers one above the other, so that the upper one meets the ball later."""
+    lower = PAPER.fingers[0]
+    return Finger("other", 2, lower.azimuth, orientation=-0.1), lower
