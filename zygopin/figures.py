@@ -6,6 +6,7 @@ Matplotlib comes from here alone, so that its absence is told once.
 from __future__ import annotations
 
 import io
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -32,6 +33,9 @@ DOTS_PER_INCH = 150
 
 LARGE = 0.5
 """Size of a foot from which its figures are in metres [m], not in millimetres."""
+
+THIN, THICK = 1.2, 3.4
+"""Widths of lines that may coincide, the last and the first [points]."""
 
 INK, ACCENT, PALE = "#22272e", "#c0392b", "#c9ced6"
 
@@ -90,6 +94,32 @@ def name_axes(panel: Axes, unit: Unit, *, leftmost: bool = True) -> None:
     panel.tick_params(labelsize=8, labelleft=leftmost)
     if leftmost:
         panel.set_ylabel(f"z, up [{unit.name}]", fontsize=9)
+
+
+def foot_title(foot: Foot) -> str:
+    """Which foot a figure shows.
+
+    Args:
+        foot: The foot.
+
+    Returns:
+        Its name and parameters.
+    """
+    length, omega = unit_of(foot).text(foot.scale), math.degrees(foot.omega)
+    return f"{foot.name}, ρ = {foot.rho:.6g}, ω = {omega:.6g}°, s = {length}"
+
+
+def line_width(index: int, count: int) -> float:
+    """Width of one of several lines that may coincide: later ones are thinner.
+
+    Args:
+        index: Its place among them, from 0, in the order of drawing.
+        count: How many there are.
+
+    Returns:
+        The width [points].
+    """
+    return THIN + (THICK - THIN) * (count - 1 - index) / max(count - 1, 1)
 
 
 def save_figure(figure: Figure, path: Path | str) -> Path:

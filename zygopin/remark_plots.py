@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from zygopin.drawing import finger_paint
 from zygopin.engagement import engaged_junctions
+from zygopin.engagement_plots import FINE, draw_toe, note
 from zygopin.figures import (
     ACCENT,
     INK,
@@ -18,6 +19,8 @@ from zygopin.figures import (
     Circle,
     Polygon,
     Unit,
+    foot_title,
+    line_width,
     name_axes,
     new_figure,
     save_figure,
@@ -25,7 +28,6 @@ from zygopin.figures import (
 )
 from zygopin.foot import Foot
 from zygopin.remark import Counterexample, counterexample
-from zygopin.strike_plots import FINE, draw_toe, foot_title, note
 from zygopin.sweep import Sweep, about_z
 
 STAGES = 4
@@ -88,11 +90,11 @@ def _draw_stages(panel: Axes, found: Counterexample, unit: Unit) -> None:
             corners = np.stack([outline.real, outline.imag], axis=1)
             panel.add_patch(Polygon(corners, color=colour, alpha=0.12, linewidth=0))
     for value in (0.0, last, 1.0):
-        tip = engaged_junctions(foot, toe, [value])[0, -1] * unit.per_metre
-        note(panel, f"v = {value:.3g}", tip)
+        before, tip = engaged_junctions(foot, toe, [value])[0, -2:] * unit.per_metre
+        note(panel, f"v = {value:.3g}", tip, tip - before)
     panel.plot(0, 0, "s", color=INK, markersize=5)
     panel.set_aspect("equal")
-    panel.margins(0.08)
+    panel.margins(0.12)
     panel.grid(color=PALE, linewidth=0.4)
     words = "red: the first phalanx meets the ball; grey: it has lost it"
     panel.set_title(f"{toe.name}; {words}", fontsize=9)
@@ -106,14 +108,16 @@ def _draw_gaps(panel: Axes, found: Counterexample, unit: Unit) -> None:
         pose = about_z(finger.azimuth)
         gaps = Sweep(found.foot, finger, pose, found.obstacle).gaps(values)
         colour = finger_paint(index).css
-        panel.plot(values, gaps * unit.per_metre, color=colour, label=finger.name)
+        width = line_width(index, len(found.foot.fingers))
+        gaps *= unit.per_metre
+        panel.plot(values, gaps, color=colour, linewidth=width, label=finger.name)
     low, high = panel.get_ylim()
     panel.axhspan(low, 0, color=WOOD, alpha=0.25, linewidth=0)
     panel.axhline(0, color=INK, linewidth=0.7)
     panel.axvline(found.lost_at, color=INK, linewidth=0.8, linestyle="--")
     lost = f"lost at v = {found.lost_at:.4g}"
     panel.annotate(
-        lost, (found.lost_at, high), (4, -12), textcoords="offset points", fontsize=9
+        lost, (found.lost_at, low), (5, 7), textcoords="offset points", fontsize=9
     )
     panel.set(xlim=(0, 1), ylim=(low, high))
     panel.tick_params(labelsize=8)
@@ -121,7 +125,7 @@ def _draw_gaps(panel: Axes, found: Counterexample, unit: Unit) -> None:
     panel.set_ylabel(f"clearance to the ball [{unit.name}]", fontsize=9)
     panel.set_title("first phalanges; below 0 they meet the ball", fontsize=9)
     panel.grid(color=PALE, linewidth=0.4)
-    panel.legend(fontsize=8, framealpha=0.9)
+    panel.legend(fontsize=8, framealpha=0.9, loc="upper left")
 
 
 def _capsule(start: complex, end: complex, radius: float) -> NDArray[np.complex128]:

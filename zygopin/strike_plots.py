@@ -1,4 +1,4 @@
-"""Figures of the owl's strike: a toe that its tendon closes, a strike over time."""
+"""The figure of a strike over time: modes, clearances, controls, events."""
 
 from __future__ import annotations
 
@@ -6,37 +6,19 @@ import math
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from zygopin import checks
 from zygopin.drawing import finger_paint
-from zygopin.engagement import checked_stages, engaged_junctions
 from zygopin.figures import (
     INK,
     PALE,
     Axes,
-    Normalize,
-    ScalarMappable,
-    colormaps,
-    name_axes,
+    line_width,
     new_figure,
     save_figure,
-    to_hex,
     unit_of,
 )
 from zygopin.finger import Finger
-from zygopin.foot import Foot
-from zygopin.reach import find_finger
 from zygopin.trajectory import EventKind, Mode, StrikeTrajectory
-
-STAGES = 7
-"""Stages of a closing toe that are drawn, unless said otherwise."""
-
-PANEL, FLATTEST = 4.6, 0.45
-"""Width of a toe's panel [inches], and its least height over that."""
-
-FINE = 721
-"""Values of v along a curve."""
 
 MILLI = 1e3
 """Milliseconds in a second."""
@@ -66,67 +48,6 @@ EVENT_MARKERS: dict[EventKind, str] = {
     "locked": "s",
     "released": "v",
 }
-
-Floats = NDArray[np.float64]
-Points = NDArray[np.complex128]
-
-
-def plot_engagement(
-    foot: Foot,
-    path: Path | str,
-    *,
-    finger: str | int | None = None,
-    stages: int | ArrayLike = STAGES,
-) -> Path:
-    """Draw a toe at stages of its closing, and the way of its talon: the source's TLM.
-
-    All controls equal v, from 0 to 1, in the finger's plane.
-
-    Args:
-        foot: The foot.
-        path: The PNG file.
-        finger: Name, or number from 1; None: the last, which is the source's.
-        stages: Values of v, shape (n,); or how many, at equal steps from 0 to 1.
-
-    Returns:
-        The path.
-
-    Raises:
-        UnknownNameError: There is no finger of that name.
-        ParameterError: A stage is outside [0, 1].
-        FileError: The file cannot be written.
-    """
-    toe = find_finger(foot, len(foot.fingers) if finger is None else finger)
-    shown = stages if np.ndim(stages) else _equal_steps(stages)
-    values, unit = checked_stages("stages", shown), unit_of(foot)
-    points = engaged_junctions(foot, toe, values) * unit.per_metre
-    way = engaged_junctions(foot, toe, np.linspace(0, 1, FINE))[:, -1] * unit.per_metre
-    hues = ScalarMappable(Normalize(0, 1), colormaps["viridis_r"])
-    spread = np.append(points.ravel(), way)
-    tall = float(np.ptp(spread.imag) / max(np.ptp(spread.real), np.ptp(spread.imag)))
-    figure = new_figure(11.0, 1.6 + PANEL * max(tall, FLATTEST))
-    left, right = figure.subplots(1, 2, sharex=True, sharey=True)
-    for value, toe_points in zip(values, points, strict=True):
-        draw_toe(left, toe_points, to_hex(hues.to_rgba(value)))
-    right.plot(way.real, way.imag, color=INK, linewidth=1.0)
-    tips = points[:, -1]
-    right.scatter(tips.real, tips.imag, c=hues.to_rgba(values), zorder=3)
-    for value, place in ((0, way[0]), (1, way[-1])):
-        right.plot(place.real, place.imag, "o", ms=10, mfc="none", mec=INK)
-        note(right, f"v = {value}", place)
-    for panel, title in (
-        (left, f"{toe.name}, stages of v"),
-        (right, "way of its talon"),
-    ):
-        panel.set_title(title, fontsize=9)
-        panel.plot(0, 0, "s", color=INK, markersize=5)
-        panel.set_aspect("equal")
-        panel.margins(0.08)
-        name_axes(panel, unit, leftmost=panel is left)
-        panel.grid(color=PALE, linewidth=0.4)
-    figure.colorbar(hues, ax=[left, right], label="v, every control", shrink=0.9)
-    figure.suptitle(foot_title(foot), fontsize=11)
-    return save_figure(figure, path)
 
 
 def plot_strike(strike: StrikeTrajectory, path: Path | str) -> Path:
@@ -174,57 +95,6 @@ def plot_strike(strike: StrikeTrajectory, path: Path | str) -> Path:
     grid[1, 0].set_title(words, fontsize=8, loc="left", pad=3)
     figure.suptitle(_strike_title(strike), fontsize=11)
     return save_figure(figure, path)
-
-
-def _equal_steps(count: object) -> Floats:
-    """So many values from 0 to 1."""
-    return np.linspace(0, 1, checks.integer("stages", count, 2, FINE))
-
-
-def draw_toe(panel: Axes, points: Points, colour: str, width: float = 1.8) -> None:
-    """Draw a toe as a line with its junctions.
-
-    Args:
-        panel: The panel.
-        points: The junctions, in the panel's unit, shape (K + 1,).
-        colour: The colour.
-        width: The line's width [points].
-    """
-    x, z = points.real, points.imag
-    panel.plot(x, z, "o-", color=colour, linewidth=width, markersize=3.5)
-
-
-def note(panel: Axes, text: str, place: complex, colour: str = INK) -> None:
-    """Write a few words beside a point.
-
-    Args:
-        panel: The panel.
-        text: The words.
-        place: The point, in the panel's unit.
-        colour: The colour.
-    """
-    panel.annotate(
-        text,
-        (place.real, place.imag),
-        xytext=(-9, -4),
-        textcoords="offset points",
-        ha="right",
-        fontsize=9,
-        color=colour,
-    )
-
-
-def foot_title(foot: Foot) -> str:
-    """Which foot a figure shows.
-
-    Args:
-        foot: The foot.
-
-    Returns:
-        Its name and parameters.
-    """
-    length, omega = unit_of(foot).text(foot.scale), math.degrees(foot.omega)
-    return f"{foot.name}, ρ = {foot.rho:.6g}, ω = {omega:.6g}°, s = {length}"
 
 
 def _strike_title(strike: StrikeTrajectory) -> str:
@@ -281,10 +151,11 @@ def _name_modes(
 
 def _draw_clearances(panel: Axes, strike: StrikeTrajectory) -> None:
     """The least clearance of each finger, with what stopped it."""
-    unit, times = unit_of(strike.foot), MILLI * strike.times
-    for index, (name, part) in enumerate(strike.foot.finger_slices.items()):
+    foot, times = strike.foot, MILLI * strike.times
+    unit = unit_of(foot)
+    for index, (name, part) in enumerate(foot.finger_slices.items()):
         least = strike.clearance[:, part].min(axis=1) * unit.per_metre
-        colour, width = finger_paint(index).css, _width(index, len(strike.foot.fingers))
+        colour, width = finger_paint(index).css, line_width(index, len(foot.fingers))
         panel.plot(times, least, color=colour, linewidth=width, label=name, zorder=3)
         for event in strike.events:
             if event.finger == name and event.clearance is not None:
@@ -316,7 +187,7 @@ def _draw_controls(panel: Axes, strike: StrikeTrajectory, finger: Finger) -> Non
     times = MILLI * strike.times
     for rank, values in enumerate(strike.controls[:, part].T):
         colour = paint.tinted(LIGHTEST * rank / finger.phalanges).css
-        width = _width(rank, finger.phalanges)
+        width = line_width(rank, finger.phalanges)
         panel.plot(times, values, color=colour, linewidth=width, zorder=3)
         for event in strike.events:
             if (event.finger, event.phalanx) == (finger.name, rank + 1):
@@ -325,8 +196,3 @@ def _draw_controls(panel: Axes, strike: StrikeTrajectory, finger: Finger) -> Non
                 marker, time = EVENT_MARKERS[event.kind], MILLI * event.time
                 panel.plot(time, place, marker, ms=4, color=colour, zorder=4)
     panel.grid(color=PALE, linewidth=0.4)
-
-
-def _width(index: int, count: int) -> float:
-    """Width of one of several lines that may coincide: later ones are thinner."""
-    return 1.2 + 2.6 * (count - 1 - index) / max(count - 1, 1)
