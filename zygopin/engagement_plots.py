@@ -138,4 +138,5 @@ def note(panel: Axes, text: str, place: complex, away: complex = -1) -> None:
         va="center",
         fontsize=9,
         color=INK,
+        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 1},
     )

@@ -166,14 +166,22 @@ def _draw_clearances(panel: Axes, strike: StrikeTrajectory) -> None:
     panel.grid(color=PALE, linewidth=0.4)
 
 
+def _widest(strike: StrikeTrajectory) -> float:
+    """The largest clearance that is drawn [m]: the least of a finger at an instant."""
+    parts = strike.foot.finger_slices.values()
+    return max(float(strike.clearance[:, part].min(axis=1).max()) for part in parts)
+
+
 def _name_clearances(panel: Axes, strike: StrikeTrajectory) -> None:
     """Scale and legend of the clearances: linear near contact, else logarithmic."""
     unit, size = unit_of(strike.foot), strike.foot.size
     even = 10.0 ** round(math.log10(LINEAR * size * unit.per_metre))
     panel.set_yscale("symlog", linthresh=even, linscale=0.6)
-    panel.set_ylabel(
-        f"least clearance [{unit.name}]\nlinear within ±{even:g}", fontsize=9
-    )
+    words = f"least clearance [{unit.name}]\nlinear within ±{even:g}"
+    panel.set_ylabel(words, fontsize=9)
+    low, high = np.array([strike.clearance.min(), _widest(strike)]) * unit.per_metre
+    low = 2 * low if low < -even / 4 else -even / 2
+    panel.set_ylim(low, max(2 * high, even))
     met = {event.kind for event in strike.events if event.finger}
     for kind in sorted(met):
         panel.plot([], [], EVENT_MARKERS[kind], color=INK, label=kind)
