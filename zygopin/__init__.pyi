@@ -8,6 +8,7 @@ from zygopin.control_system import ControlSystem as ControlSystem
 from zygopin.description import to_srdf as to_srdf
 from zygopin.description import to_urdf as to_urdf
 from zygopin.description import write_description as write_description
+from zygopin.engagement_plots import plot_engagement as plot_engagement
 from zygopin.engine import Engine as Engine
 from zygopin.engine import make_engine as make_engine
 from zygopin.errors import DescriptionError as DescriptionError
@@ -55,6 +56,11 @@ from zygopin.reach import finger_reach as finger_reach
 from zygopin.reach_inverse import InverseReach as InverseReach
 from zygopin.reach_inverse import inverse_reach as inverse_reach
 from zygopin.reach_scene import export_reach_scene as export_reach_scene
+from zygopin.remark import ContactKept as ContactKept
+from zygopin.remark import Counterexample as Counterexample
+from zygopin.remark import contact_kept as contact_kept
+from zygopin.remark import counterexample as counterexample
+from zygopin.remark_plots import plot_remark as plot_remark
 from zygopin.scene import export_scene as export_scene
 from zygopin.solid_clearance import obstacle_clearance as obstacle_clearance
 from zygopin.spread import SpreadStudy as SpreadStudy
@@ -63,6 +69,7 @@ from zygopin.spread import strike_area as strike_area
 from zygopin.spread import talon_hull_area as talon_hull_area
 from zygopin.strike import simulate_strike as simulate_strike
 from zygopin.strike_output import save_strike as save_strike
+from zygopin.strike_plots import plot_strike as plot_strike
 from zygopin.strike_scene import export_strike as export_strike
 from zygopin.tendon import Contact as Contact
 from zygopin.tendon import TendonFoot as TendonFoot

@@ -159,7 +159,8 @@ class Motion:
         instants = _as_times(times)
         places = _as_samples("positions", positions, instants, (3,))
         moves = np.linalg.norm(np.diff(places, axis=0), axis=1)
-        line, turn, angles = _lines(instants, places), _level, np.zeros(len(moves))
+        line, angles = _lines(instants, places), np.zeros(len(moves))
+        turn: Callable[[Floats], Floats] = _level
         if rotations is not None:
             frames = _as_samples("rotations", rotations, instants, (3, 3))
             _check_rotations("rotations", frames)
