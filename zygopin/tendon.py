@@ -48,8 +48,9 @@ TINY = 1e-300
 POINT = 1e-9
 """Length over the foot's size of the bone that stands for the base's point."""
 
-RESTLESS = 256
-"""Parts of a flight after which phalanges that touched at a release are looked at."""
+CLEAR = 0.01
+"""Clearance over the foot's size with which a phalanx that touched at a release has
+come clear of the obstacle; no excursion to twice that is overlooked."""
 
 Floats = NDArray[np.float64]
 Sensing = Literal["first", "any"]
@@ -132,6 +133,7 @@ class TendonFoot:
         self.closing, self.contact = closing or Closing(), contact or Contact()
         self.flow = FreeFlow(foot, flight)
         self.tolerance = Criteria(tolerance=self.contact.tolerance).metres(foot)
+        self.clear = max(CLEAR * foot.size, 2 * self.tolerance)
         self.senses = _senses(foot, self.closing, self.contact)
         self.armed = np.ones(foot.phalanx_count, bool)
         self.mode: Mode = "free"
@@ -157,8 +159,9 @@ class TendonFoot:
     def release(self) -> None:
         """Let go: the only way out of LOCKED.
 
-        The controls are again what the flight says. Phalanges that touch the obstacle
-        then engage the tendon only after they have come clear of it.
+        Base, turn and controls are again what the flight says for that instant.
+        Phalanges that touch the obstacle then engage the tendon only after they have
+        come clear of it, by 1 % of the foot's size.
 
         Raises:
             ParameterError: The tendon is not locked.
@@ -188,12 +191,12 @@ class TendonFoot:
         start, met = self.time, np.zeros(self.foot.phalanx_count, bool)
         self.flow.check_defined(start, until)
         while self.time < until and not met.any():
-            span = self.time, self._stop(start, until)
+            span = self.time, self._stop(until)
             levels = np.where(self.senses & self.armed, self.tolerance, -np.inf)
             look = self._look(np.minimum(levels, 0.0), self.flow.speeds(*span))
             self.time, distances = first_reached(look, span, levels)
             met = distances <= levels
-            self.armed |= distances > 2 * self.tolerance
+            self.armed |= distances > self.clear
         self._end_phase(start, self.flow.stances)
         if met.any():
             self._enter(
@@ -256,12 +259,21 @@ class TendonFoot:
 
         return look
 
-    def _stop(self, start: float, until: float) -> float:
-        """Where a step of the flight ends at the latest [s]."""
+    def _stop(self, until: float) -> float:
+        """Where a step of the flight ends at the latest [s].
+
+        Before phalanges that touched at a release can have come to twice the clearance
+        at which they count as clear.
+        """
         stop = self.flow.next_break(self.time, until)
-        if self.armed.all():
+        waiting = self.senses & ~self.armed
+        if not waiting.any():
             return stop
-        return min(stop, self.time + (until - start) / RESTLESS)
+        distances = self._distances(self.time)[waiting]
+        speeds = self.flow.speeds(self.time, stop)[waiting]
+        far = np.full_like(distances, 2 * self.clear)
+        step = safe_step(far, distances, speeds)
+        return min(stop, max(self.time + step, np.nextafter(self.time, np.inf)))
 
     def _engagement(self, phalanx: int) -> StrikeEvent:
         """The event of a phalanx that has just met the obstacle."""
