@@ -79,7 +79,13 @@ def record(automaton: TendonFoot, frames: int = FRAMES) -> StrikeTrajectory:
 
     Returns:
         The record.
+
+    Raises:
+        ParameterError: It has not run yet.
     """
+    if not automaton.phases:
+        remedy = "run it to a later time first"
+        raise ParameterError("phases", [], "one or more", remedy)
     moments = [np.array([event.time]) for event in automaton.events]
     parts = []
     for phase in automaton.phases:

@@ -13,6 +13,7 @@ nothing moves. Only `release` leads out of it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
@@ -24,7 +25,7 @@ from zygopin import checks
 from zygopin.advancement import Look, first_reached, safe_step
 from zygopin.clearance import Clearance
 from zygopin.closing import Closing
-from zygopin.engine import EngineName
+from zygopin.engine import ENGINES, EngineName
 from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.flight import Flight, FreeFlow
 from zygopin.foot import Foot
@@ -78,6 +79,9 @@ class Contact:
     def __post_init__(self) -> None:
         if self.sensing not in (None, *SENSING):
             raise UnknownNameError("sensing", self.sensing, SENSING)
+        if self.engine not in (None, *ENGINES):
+            raise UnknownNameError("engine", self.engine, ENGINES)
+        Criteria(tolerance=self.tolerance)
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,6 +135,8 @@ class TendonFoot:
         """
         self.foot, self.obstacle = foot, as_obstacle(obstacle)
         self.closing, self.contact = closing or Closing(), contact or Contact()
+        checks.instance("closing", self.closing, Closing)
+        checks.instance("contact", self.contact, Contact)
         self.flow = FreeFlow(foot, flight)
         self.tolerance = Criteria(tolerance=self.contact.tolerance).metres(foot)
         self.clear = max(CLEAR * foot.size, 2 * self.tolerance)
@@ -273,7 +279,7 @@ class TendonFoot:
         speeds = self.flow.speeds(self.time, stop)[waiting]
         far = np.full_like(distances, 2 * self.clear)
         step = safe_step(far, distances, speeds)
-        return min(stop, max(self.time + step, np.nextafter(self.time, np.inf)))
+        return min(stop, max(self.time + step, math.nextafter(self.time, math.inf)))
 
     def _engagement(self, phalanx: int) -> StrikeEvent:
         """The event of a phalanx that has just met the obstacle."""
