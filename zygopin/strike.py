@@ -120,6 +120,8 @@ def _instants(phase: Phase, automaton: TendonFoot, frames: int) -> Floats:
     closing = [p.end - p.start for p in automaton.phases if p.mode == "closing"]
     total = automaton.phases[-1].end - automaton.phases[0].start
     share = (phase.end - phase.start) / max(total, np.finfo(float).tiny)
+    if closing:
+        share *= 1 - CLOSING_SHARE
     if phase.mode == "closing":
         share = CLOSING_SHARE / len(closing)
     return np.linspace(phase.start, phase.end, max(2, round(share * frames)))

@@ -249,7 +249,9 @@ class TendonFoot:
         self.mode = TRANSITIONS[self.mode, event.kind]
 
     def _end_phase(self, start: float, stances: Callable[[Floats], Stance]) -> None:
-        """Note the stretch of time that ends now."""
+        """Note the stretch of time that ends now, as one with the same mode's."""
+        if self.phases and self.phases[-1].mode == self.mode:
+            start = self.phases.pop().start
         self.phases.append(Phase(self.mode, start, self.time, stances))
 
     def _distances(self, time: float) -> Floats:
@@ -291,7 +293,9 @@ class TendonFoot:
         """The obstacle does not hold the base where the flight starts."""
         self.flow.check_defined(self.time, self.time)
         base = self.flow.stances(np.array([self.time])).base[0]
-        step = POINT * self.foot.size * base[:3, 0]
+        # Long enough to have two ends where the base is far from the origin.
+        length = POINT * self.foot.size + 8 * np.spacing(np.abs(base[:3, 3]).max())
+        step = length * base[:3, 0]
         bone = np.stack([base[:3, 3], base[:3, 3] + step])[None]
         near = obstacle_clearance(bone, np.zeros(1), self.obstacle)
         if near.distance[0] < -self.tolerance:
