@@ -143,7 +143,9 @@ def make_obstacle(kind, width, centre, rng):
         "branch": lambda: Branch(width, centre, turn[0]),
         "stump": lambda: Branch(width, centre, turn[0], long),
         "box": lambda: Box(width * rng.uniform(0.5, 4, 3), centre, turn),
-        "capsule": lambda: Capsule(width, centre + np.outer([-0.5, 0.5], long * turn[0])),
+        "capsule": lambda: Capsule(
+            width, centre + np.outer([-0.5, 0.5], long * turn[0])
+        ),
         "mesh": lambda: ConvexMesh(centre + width * rng.normal(size=(12, 3))),
     }
     return made[kind]()
@@ -246,7 +248,9 @@ def deepest_before(automaton, end):
 
 def _breaks(flow, end):
     """Instants before an end at which a law bends."""
-    times = np.concatenate([flow.motion.times, flow.controls.times, flow.reversal.times])
+    times = np.concatenate(
+        [flow.motion.times, flow.controls.times, flow.reversal.times]
+    )
     return times[(times > flow.start) & (times < end)]
 
 
