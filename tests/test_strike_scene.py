@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import umsgpack
 from browser import visit
-from strikes import BALL, CONTACT, END, LOCKED, made_strike
+from made_strikes import BALL, CONTACT, END, LOCKED, made_strike
 from test_scene import HOSTILE, extent, fingers
 
 from zygopin.branch import Branch

@@ -108,6 +108,22 @@ def array(name: str, value: ArrayLike, *, last: int | None = None) -> NDArray[An
     return result
 
 
+def instance(name: str, value: object, kind: type) -> None:
+    """Raise unless a value is of a class.
+
+    Args:
+        name: Name of the parameter, for the message.
+        value: What was given.
+        kind: The class.
+
+    Raises:
+        ParameterError: Names the class that it is of.
+    """
+    if not isinstance(value, kind):
+        given, wanted = type(value).__name__, kind.__name__
+        raise ParameterError(name, given, f"a {wanted}", f"give a zygopin.{wanted}")
+
+
 def lengths(name: str, value: ArrayLike, *, last: int | None = None) -> NDArray[Any]:
     """Positive lengths, whose squares neither vanish nor overflow.
 

@@ -66,7 +66,7 @@ class Closing:
         )
         object.__setattr__(self, "duration", duration)
         object.__setattr__(self, "_map", _map(self.shape, duration))
-        _check(self.at, np.linspace(0, duration, SAMPLES))
+        _check(self.at, np.linspace(0, duration, _looks(self.shape)))
 
     def at(self, times: ArrayLike) -> Floats:
         """The map at times after the tendon engaged.
@@ -97,6 +97,14 @@ class Closing:
             reached = self.at([middle])[0] >= value
             low, high = (low, middle) if reached else (middle, high)
         return high
+
+
+def _looks(shape: Shape) -> int:
+    """At how many instants a map is looked at: at each of its samples."""
+    if isinstance(shape, str) or callable(shape):
+        return SAMPLES
+    steps = len(np.asarray(shape)) - 1
+    return steps * max(1, (SAMPLES - 1) // steps) + 1
 
 
 def _map(shape: Shape, duration: float) -> Callable[[Floats], Floats]:

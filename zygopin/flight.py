@@ -53,9 +53,8 @@ class FreeFlow:
         Raises:
             ParameterError: A law's values are of a wrong shape or outside [0, 1].
         """
-        if not isinstance(flight, Flight):
-            remedy = "give a zygopin.Flight"
-            raise ParameterError("flight", type(flight).__name__, "a Flight", remedy)
+        checks.instance("flight", flight, Flight)
+        checks.instance("flight.motion", flight.motion, Motion)
         self.foot, self.motion = foot, flight.motion
         self.controls = _controls_law(foot, flight.controls)
         self.reversal = _reversal_law(flight.reversal)
@@ -120,10 +119,9 @@ class FreeFlow:
         for name, times in zip(names, self._parts, strict=True):
             first, last = float(times[0]), float(times[-1])
             if not first <= time <= until <= last:
-                allowed = f"defined from {time:g} to {until:g} s"
+                allowed = f"one that holds {time:g} to {until:g} s"
                 remedy = "give it for the whole flight, or ask for less time"
-                span = f"from {first:g} to {last:g} s"
-                raise ParameterError(f"{name} {span}", "span", allowed, remedy)
+                raise ParameterError(f"span of {name}", (first, last), allowed, remedy)
 
 
 def _controls_law(foot: Foot, controls: Law | Controls) -> Law:
@@ -132,7 +130,7 @@ def _controls_law(foot: Foot, controls: Law | Controls) -> Law:
     if not isinstance(controls, Law):
         if isinstance(controls, (int, float)):
             controls = np.full(count, checks.number("controls", controls))
-        return Law.constant(as_controls(foot, controls))
+        controls = Law.constant(as_controls(foot, controls))
     shape = controls.rates.shape[1:]
     if shape != (count,):
         remedy = "give one control for each phalanx"

@@ -101,10 +101,10 @@ class Law:
         instants = _probes(end)
         at = _called("law", function)
         samples = at(instants)
-        bound = np.broadcast_to(_as_bound("rate", rate), samples.shape[1:])
+        bound = _as_bound("rate", rate, samples.shape[1:])
         measured = _per_step(np.diff(samples, axis=0), instants)
         _check_rates("rate", np.abs(measured), bound)
-        return cls(at, instants[[0, -1]], bound[None])
+        return cls(at, instants[[0, -1]], bound[None] * (1 + RATE_SLACK))
 
     def rate(self, start: float, end: float) -> Floats:
         """Bound on how fast each value changes between two instants.
@@ -203,14 +203,15 @@ class Motion:
             remedy = "return T_world_base as a matrix"
             raise ParameterError("motion.shape", poses.shape[1:], "(4, 4)", remedy)
         _check_rotations("motion", poses[:, :3, :3])
-        bounds = [_as_bound("speed", speed), _as_bound("turn_rate", turn_rate)]
+        bounds = [_as_bound("speed", speed, ()), _as_bound("turn_rate", turn_rate, ())]
         moves = np.linalg.norm(np.diff(poses[:, :3, 3], axis=0), axis=1)
         angles = _angles(poses[:, :3, :3])
         for name, steps, bound in zip(
             ("speed", "turn_rate"), (moves, angles), bounds, strict=True
         ):
             _check_rates(name, _per_step(steps, instants), bound)
-        return cls(at, instants[[0, -1]], bounds[0][None], bounds[1][None])
+        allowed = np.array(bounds)[:, None] * (1 + RATE_SLACK)
+        return cls(at, instants[[0, -1]], *allowed)
 
     @classmethod
     def resting(cls, pose: ArrayLike | None = None) -> Motion:
@@ -282,13 +283,17 @@ def _called(name: str, function: Callable[[float], ArrayLike]) -> Callable[..., 
                 f"{name}({time:g})", problem, allowed, remedy
             ) from error
 
+    shape = value(0.0).shape
+
     def at(times: Floats) -> Floats:
         values = [value(float(time)) for time in times]
-        shapes = {each.shape for each in values}
-        if len(shapes) > 1:
-            remedy = "return the same shape at all times"
-            raise ParameterError(f"{name}.shape", shapes, "one shape", remedy)
-        return np.array(values)
+        for time, each in zip(times, values, strict=True):
+            if each.shape != shape:
+                allowed, remedy = f"{shape} as at 0", "return the same shape always"
+                raise ParameterError(
+                    f"{name}({time:g}).shape", each.shape, allowed, remedy
+                )
+        return np.reshape(values, (len(times), *shape))
 
     return at
 
@@ -321,11 +326,14 @@ def _check_rates(name: str, measured: Floats, bound: Floats) -> None:
     checks.require(name, np.asarray(bound), good, worst, remedy)
 
 
-def _as_bound(name: str, value: ArrayLike) -> Floats:
-    """A checked bound ≥ 0 on a rate."""
+def _as_bound(name: str, value: ArrayLike, shape: tuple[int, ...]) -> Floats:
+    """Checked bounds ≥ 0 on rates, of a shape; or one for all of them."""
     bound = checks.array(name, value)
+    if bound.shape not in ((), shape):
+        remedy = "give one bound, or one for each value"
+        raise ParameterError(f"{name}.shape", bound.shape, f"{shape}", remedy)
     checks.require(name, bound, bound >= 0, "at least 0", "give a bound per second")
-    return bound
+    return np.broadcast_to(bound, shape)
 
 
 def _as_times(times: ArrayLike) -> Floats:
@@ -357,11 +365,13 @@ def _as_samples(
 
 def _check_rotations(name: str, matrices: Floats) -> None:
     """Matrices are rotations, right-handed, shape (n, 3, 3)."""
-    products = matrices @ matrices.swapaxes(-1, -2)
+    inside = np.clip(matrices, -2, 2)  # so that products do not overflow
+    products = inside @ inside.swapaxes(-1, -2)
     off = np.abs(products - np.eye(3)).max(axis=(-2, -1))
-    good = (off <= ORTHONORMAL) & (np.linalg.det(matrices) > 0)
-    remedy = "give orthonormal, right-handed matrices"
-    checks.require(f"{name}, off a rotation by", off, good, "a rotation", remedy)
+    allowed, remedy = f"within {ORTHONORMAL:g} of orthonormal", "give rotations"
+    checks.require(f"error of {name}", off, off <= ORTHONORMAL, allowed, remedy)
+    sign, remedy = np.linalg.det(inside), "swap two columns"
+    checks.require(f"determinant of {name}", sign, sign > 0, "1", remedy)
 
 
 def _level(moments: Floats) -> Floats:

@@ -79,7 +79,13 @@ def record(automaton: TendonFoot, frames: int = FRAMES) -> StrikeTrajectory:
 
     Returns:
         The record.
+
+    Raises:
+        ParameterError: It has not run yet.
     """
+    if not automaton.phases:
+        remedy = "run it to a later time first"
+        raise ParameterError("phases", [], "one or more", remedy)
     moments = [np.array([event.time]) for event in automaton.events]
     parts = []
     for phase in automaton.phases:
@@ -114,6 +120,8 @@ def _instants(phase: Phase, automaton: TendonFoot, frames: int) -> Floats:
     closing = [p.end - p.start for p in automaton.phases if p.mode == "closing"]
     total = automaton.phases[-1].end - automaton.phases[0].start
     share = (phase.end - phase.start) / max(total, np.finfo(float).tiny)
+    if closing:
+        share *= 1 - CLOSING_SHARE
     if phase.mode == "closing":
         share = CLOSING_SHARE / len(closing)
     return np.linspace(phase.start, phase.end, max(2, round(share * frames)))

@@ -13,6 +13,7 @@ nothing moves. Only `release` leads out of it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
@@ -24,7 +25,7 @@ from zygopin import checks
 from zygopin.advancement import Look, first_reached, safe_step
 from zygopin.clearance import Clearance
 from zygopin.closing import Closing
-from zygopin.engine import EngineName
+from zygopin.engine import ENGINES, EngineName
 from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.flight import Flight, FreeFlow
 from zygopin.foot import Foot
@@ -48,8 +49,9 @@ TINY = 1e-300
 POINT = 1e-9
 """Length over the foot's size of the bone that stands for the base's point."""
 
-RESTLESS = 256
-"""Parts of a flight after which phalanges that touched at a release are looked at."""
+CLEAR = 0.01
+"""Clearance over the foot's size with which a phalanx that touched at a release has
+come clear of the obstacle; no excursion to twice that is overlooked."""
 
 Floats = NDArray[np.float64]
 Sensing = Literal["first", "any"]
@@ -77,6 +79,9 @@ class Contact:
     def __post_init__(self) -> None:
         if self.sensing not in (None, *SENSING):
             raise UnknownNameError("sensing", self.sensing, SENSING)
+        if self.engine not in (None, *ENGINES):
+            raise UnknownNameError("engine", self.engine, ENGINES)
+        Criteria(tolerance=self.tolerance)
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,8 +135,11 @@ class TendonFoot:
         """
         self.foot, self.obstacle = foot, as_obstacle(obstacle)
         self.closing, self.contact = closing or Closing(), contact or Contact()
+        checks.instance("closing", self.closing, Closing)
+        checks.instance("contact", self.contact, Contact)
         self.flow = FreeFlow(foot, flight)
         self.tolerance = Criteria(tolerance=self.contact.tolerance).metres(foot)
+        self.clear = max(CLEAR * foot.size, 2 * self.tolerance)
         self.senses = _senses(foot, self.closing, self.contact)
         self.armed = np.ones(foot.phalanx_count, bool)
         self.mode: Mode = "free"
@@ -157,8 +165,9 @@ class TendonFoot:
     def release(self) -> None:
         """Let go: the only way out of LOCKED.
 
-        The controls are again what the flight says. Phalanges that touch the obstacle
-        then engage the tendon only after they have come clear of it.
+        Base, turn and controls are again what the flight says for that instant.
+        Phalanges that touch the obstacle then engage the tendon only after they have
+        come clear of it, by 1 % of the foot's size.
 
         Raises:
             ParameterError: The tendon is not locked.
@@ -188,12 +197,12 @@ class TendonFoot:
         start, met = self.time, np.zeros(self.foot.phalanx_count, bool)
         self.flow.check_defined(start, until)
         while self.time < until and not met.any():
-            span = self.time, self._stop(start, until)
+            span = self.time, self._stop(until)
             levels = np.where(self.senses & self.armed, self.tolerance, -np.inf)
             look = self._look(np.minimum(levels, 0.0), self.flow.speeds(*span))
             self.time, distances = first_reached(look, span, levels)
             met = distances <= levels
-            self.armed |= distances > 2 * self.tolerance
+            self.armed |= distances > self.clear
         self._end_phase(start, self.flow.stances)
         if met.any():
             self._enter(
@@ -240,7 +249,9 @@ class TendonFoot:
         self.mode = TRANSITIONS[self.mode, event.kind]
 
     def _end_phase(self, start: float, stances: Callable[[Floats], Stance]) -> None:
-        """Note the stretch of time that ends now."""
+        """Note the stretch of time that ends now, as one with the same mode's."""
+        if self.phases and self.phases[-1].mode == self.mode:
+            start = self.phases.pop().start
         self.phases.append(Phase(self.mode, start, self.time, stances))
 
     def _distances(self, time: float) -> Floats:
@@ -256,12 +267,21 @@ class TendonFoot:
 
         return look
 
-    def _stop(self, start: float, until: float) -> float:
-        """Where a step of the flight ends at the latest [s]."""
+    def _stop(self, until: float) -> float:
+        """Where a step of the flight ends at the latest [s].
+
+        Before phalanges that touched at a release can have come to twice the clearance
+        at which they count as clear.
+        """
         stop = self.flow.next_break(self.time, until)
-        if self.armed.all():
+        waiting = self.senses & ~self.armed
+        if not waiting.any():
             return stop
-        return min(stop, self.time + (until - start) / RESTLESS)
+        distances = self._distances(self.time)[waiting]
+        speeds = self.flow.speeds(self.time, stop)[waiting]
+        far = np.full_like(distances, 2 * self.clear)
+        step = safe_step(far, distances, speeds)
+        return min(stop, max(self.time + step, math.nextafter(self.time, math.inf)))
 
     def _engagement(self, phalanx: int) -> StrikeEvent:
         """The event of a phalanx that has just met the obstacle."""
@@ -273,7 +293,9 @@ class TendonFoot:
         """The obstacle does not hold the base where the flight starts."""
         self.flow.check_defined(self.time, self.time)
         base = self.flow.stances(np.array([self.time])).base[0]
-        step = POINT * self.foot.size * base[:3, 0]
+        # Long enough to have two ends where the base is far from the origin.
+        length = POINT * self.foot.size + 8 * np.spacing(np.abs(base[:3, 3]).max())
+        step = length * base[:3, 0]
         bone = np.stack([base[:3, 3], base[:3, 3] + step])[None]
         near = obstacle_clearance(bone, np.zeros(1), self.obstacle)
         if near.distance[0] < -self.tolerance:

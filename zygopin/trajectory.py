@@ -50,7 +50,9 @@ class StrikeTrajectory:
         obstacle: What it struck at, in the world's frame.
         reading: How it closed: `paper` or `contact` (MODEL.md, section 6).
         tolerance: Clearance that counts as contact [m].
-        times: Instants, ascending [s], shape (n,); events have theirs among them.
+        times: Instants [s], shape (n,), ascending within each mode; an instant at
+            which one mode ends and another begins is there for both of them. Events
+            have theirs among them.
         modes: The mode at each, shape (n,).
         controls: Controls in [0, 1], shape (n, P).
         azimuths: Azimuth of each finger [rad], shape (n, F).
