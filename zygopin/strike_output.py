@@ -108,7 +108,7 @@ def event_rows(trajectory: StrikeTrajectory) -> list[tuple[str, ...]]:
             event.finger or "",
             str(event.phalanx or ""),
             _EVENTS[event.kind],
-            _gap(event),
+            "" if event.clearance is None else f"{event.clearance * 1e6:.3f}",
         )
         for event in trajectory.events
     ]
@@ -174,13 +174,6 @@ def _why(trajectory: StrikeTrajectory) -> str:
         depth = -float(trajectory.grip.clearance.min()) * 1e3
         return f"a phalanx is {depth:.3g} mm inside the target"
     return "two toes pass through each other"
-
-
-def _gap(event: StrikeEvent) -> str:
-    """What was left to the obstacle [µm], where it was the obstacle that was met."""
-    if event.clearance is None or event.kind == "crossed":
-        return ""
-    return f"{event.clearance * 1e6:.3f}"
 
 
 def _event(event: StrikeEvent) -> dict[str, Any]:

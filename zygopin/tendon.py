@@ -316,7 +316,7 @@ def _senses(foot: Foot, closing: Closing, contact: Contact) -> NDArray[np.bool_]
 def _stopped(foot: Foot, stop: Stop, time: float) -> StrikeEvent:
     """The event of a phalanx that met something while closing."""
     name, number = _named(foot, stop.phalanx)
-    kind: EventKind = "crossed" if stop.by_toe else "stopped"
+    kind: EventKind = "stopped" if stop.point is not None else "crossed"
     return StrikeEvent(kind, time, name, number, stop.point, stop.clearance)
 
 

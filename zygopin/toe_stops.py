@@ -36,16 +36,14 @@ class Stop:
     Attributes:
         progress: How far the toes had closed, in [0, 1].
         phalanx: Its index among all P.
-        point: The obstacle's nearest point then [m], shape (3,).
-        clearance: What was left to the obstacle [m].
-        by_toe: Whether it met another toe, and not the obstacle.
+        clearance: What was left to what it met [m].
+        point: The obstacle's point [m], shape (3,); None: it met another toe.
     """
 
     progress: float
     phalanx: int
-    point: Floats
     clearance: float
-    by_toe: bool
+    point: Floats | None
 
 
 class ToeStops:
@@ -104,7 +102,7 @@ class ToeStops:
             met = distances <= wanted
             if not met.any():
                 return
-            self.stop(progress, met)
+            self.stop(progress, met, distances)
             # Who goes on beyond a phalanx that stopped may still touch at its joint.
             level = np.where(met, distances - self.depth, level)
 
@@ -158,27 +156,23 @@ class ToeStops:
         speeds = self.levers @ np.isinf(self.stopped_at)
         return np.concatenate([speeds, speeds[self.pairs[0]] + speeds[self.pairs[1]]])
 
-    def stop(self, progress: float, met: NDArray[np.bool_]) -> None:
+    def stop(self, progress: float, met: NDArray[np.bool_], distances: Floats) -> None:
         """Stop the joints that drive what has met something: the innermost phalanx."""
         foot, count = self.stance.foot, len(self.stopped_at)
         moving = self.rates()[:count] > 0
-        by_toe = np.zeros(count, bool)
+        to_toe = np.full(count, np.inf)
         for ends in self.pairs:
-            np.logical_or.at(by_toe, ends, met[count:])
-        hit = (met[:count] | by_toe) & moving
-        near = self.near(self.bones(progress), foot.radii)
+            np.minimum.at(to_toe, ends[met[count:]], distances[count:][met[count:]])
+        hit = (met[:count] | np.isfinite(to_toe)) & moving
+        points = self.near(self.bones(progress), foot.radii).point
         for part in foot.finger_slices.values():
-            if hit[part].any():
-                phalanx = part.start + int(np.argmax(hit[part]))
-                driving = slice(part.start, phalanx + 1)
-                stopped = np.minimum(self.stopped_at[driving], progress)
-                self.stopped_at[driving] = stopped
-                self.stops.append(
-                    Stop(
-                        progress,
-                        phalanx,
-                        near.point[phalanx],
-                        float(near.distance[phalanx]),
-                        bool(not met[phalanx]),
-                    )
-                )
+            if not hit[part].any():
+                continue
+            phalanx = part.start + int(np.argmax(hit[part]))
+            driving = slice(part.start, phalanx + 1)
+            stopped = np.minimum(self.stopped_at[driving], progress)
+            self.stopped_at[driving] = stopped
+            left, point = float(to_toe[phalanx]), None
+            if met[phalanx]:
+                left, point = float(distances[phalanx]), points[phalanx]
+            self.stops.append(Stop(progress, phalanx, left, point))

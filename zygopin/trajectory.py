@@ -29,8 +29,9 @@ class StrikeEvent:
         time: When [s].
         finger: The finger's name; None where it is of no one finger.
         phalanx: The phalanx's number in its finger, from 1; None likewise.
-        point: The obstacle's point that was met [m], shape (3,); None likewise.
-        clearance: What was left between skin and obstacle [m]; None likewise.
+        point: The obstacle's point that was met [m], shape (3,); None where nothing
+            or another toe was.
+        clearance: What was left to what was met [m]; None where nothing was.
     """
 
     kind: EventKind
