@@ -64,12 +64,12 @@ def test_contact_at_the_start_or_at_the_end_counts():
 
 
 def test_an_empty_span_is_looked_at_once():
-    assert advanced(lambda t: 1.0, 1.0, (0.25, 0.25)) == (0.25, 1.0)
+    assert advanced(lambda _: 1.0, 1.0, (0.25, 0.25)) == (0.25, 1.0)
 
 
 def test_steps_below_the_spacing_of_doubles_go_on():
     start = 2.0**40
-    time, _ = advanced(lambda t: 1e-5, 1.0, (start, start + 1e-2))
+    time, _ = advanced(lambda _: 1e-5, 1.0, (start, start + 1e-2))
     assert time == start + 1e-2
 
 

@@ -191,8 +191,8 @@ def test_unknown_fingers_and_what_is_no_flight_are_named():
 @pytest.mark.parametrize("name", ["motion", "controls", "reversal"])
 def test_what_ends_too_early_is_named(name):
     laws = {"controls": np.zeros((2, P)), "reversal": np.zeros(2)}
-    end = 0.5 if name == "motion" else 2.0
-    given = {"motion": Motion.through([0, end], np.zeros((2, 3)))}
+    span = [0, 0.5] if name == "motion" else [-1, 2]
+    given = {"motion": Motion.through(span, np.zeros((2, 3)))}
     if name != "motion":
         given[name] = Law.through([0, 0.5], laws[name])
     flow = FreeFlow(FOOT, Flight(**given))

@@ -180,7 +180,7 @@ def test_what_is_no_rotation_is_named(second, message):
         Motion.through([0, 1], TWO, [np.eye(3), second])
     bad = np.eye(4)
     bad[:3, :3] = second
-    with pytest.raises(ParameterError, match="orthonormal|determinant"):
+    with pytest.raises(ParameterError, match=r"orthonormal|determinant"):
         Motion.resting(bad)
 
 

@@ -7,6 +7,7 @@ meets the obstacle or another toe, and the joints farther out go on (MODEL.md, s
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -25,8 +26,9 @@ Near = Callable[[Floats, Floats], Clearance]
 CLOSE = 0.25
 """Clearance over a phalanx's length below which it is looked at piece by piece."""
 
-CUTS = np.append(0.0, 2.0 ** np.arange(-11.0, 1.0))
-"""Where it is cut: a phalanx that starts on the obstacle moves little there."""
+CUTS = np.append(0.0, 4.0 ** np.arange(-12.0, 1.0))
+"""Where it is cut: a phalanx that touches at its joint moves little there, and may
+turn all the way while it touches."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,11 +140,17 @@ class ToeStops:
         self, progress: float, phalanges: NDArray[np.intp], floors: Floats
     ) -> float:
         """The safe step of some phalanges, whose points near the joint move less."""
+        if not len(phalanges):
+            return math.inf
         foot, moving = self.stance.foot, np.isinf(self.stopped_at)
         bones = self.bones(progress)[phalanges]
         along = (bones[:, 1] - bones[:, 0])[:, None]
         cuts = bones[:, :1] + CUTS[:, None] * along
-        pieces = np.stack([cuts[:, :-1], cuts[:, 1:]], axis=-2).reshape(-1, 2, 3)
+        # A bone has two ends: far from the origin those of a piece may be as one.
+        shortest = 8 * np.spacing(np.abs(bones).max()) / foot.lengths[phalanges]
+        ends = np.maximum(CUTS[1:], CUTS[:-1] + shortest[:, None])[..., None]
+        pieces = np.stack([cuts[:, :-1], bones[:, :1] + ends * along], axis=-2)
+        pieces = pieces.reshape(-1, 2, 3)
         count = len(CUTS) - 1
         near = self.near(pieces, np.repeat(foot.radii[phalanges], count))
         turning = self.turning[phalanges] @ moving * foot.lengths[phalanges]
