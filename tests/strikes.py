@@ -24,13 +24,13 @@ KINDS = ("sphere", "branch", "stump", "box", "capsule", "mesh")
 
 PRESETS = ("parrot", "owl", "anisodactyl", "paper")
 
-GRID = 2001
+GRID = 1001
 """Instants between which a reference takes paths as straight."""
 
 BENT = 1.3
 """Length of a path over that of its chord, at most, between two of these instants."""
 
-COARSE = 40
+COARSE = 20
 """Steps of that grid that a reference starts with at once."""
 
 ROUNDING = 1e-3
