@@ -20,7 +20,7 @@ from zygopin.motion import Law, Motion
 from zygopin.obstacle import Box, Capsule, ConvexMesh, Sphere
 from zygopin.tendon import CLEAR, Contact, TendonFoot
 
-STRIKES = 10
+STRIKES = 6
 """Random strikes at each shape of obstacle; `scripts/strike-sweep` does thousands."""
 
 OWL = Foot.preset("owl")
