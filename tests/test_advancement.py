@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from strategies import reals
 
-from zygopin.advancement import first_reached, safe_step
+from zygopin.advancement import first_reached, steps_by_speed
 
 LEVEL = 1e-6
 
@@ -20,22 +18,15 @@ def advanced(function, rate, span, level=LEVEL):
 
     def look(time):
         distances = np.array([function(time)])
-        return distances, safe_step(distances, np.zeros(1), np.array([rate]))
+        return distances, float(steps_by_speed(distances, np.array([rate]))[0])
 
     time, distances = first_reached(look, span, np.array([level]))
     return time, distances[0]
 
 
-def test_step_is_the_least_of_distance_over_rate():
-    distances, floors = np.array([3.0, 1.0, 5.0]), np.array([1.0, 0.0, 0.0])
-    assert safe_step(distances, floors, np.array([1.0, 1.0, 10.0])) == 0.5
-
-
-def test_what_does_not_move_or_has_no_floor_limits_no_step():
-    distances = np.array([0.0, 1.0])
-    assert safe_step(distances, np.zeros(2), np.zeros(2)) == math.inf
-    assert safe_step(distances, np.array([0.0, -np.inf]), np.array([0, 1])) == math.inf
-    assert safe_step(np.empty(0), np.empty(0), np.empty(0)) == math.inf
+def test_steps_are_distance_over_rate():
+    distances, rates = np.array([2.0, 1.0, 5.0]), np.array([1.0, 2.0, 10.0])
+    assert steps_by_speed(distances, rates) == pytest.approx([2.0, 0.5, 0.5])
 
 
 def test_straight_fall_ends_where_it_meets_its_level():

@@ -56,6 +56,7 @@ LAYERS = (
     "flight",
     "grip",
     "trajectory",
+    "toe_motion",
     "toe_stops",
     "tendon",
     "strike",

@@ -17,20 +17,40 @@ Look = Callable[[float], tuple[Floats, float]]
 """Distances at an instant, shape (m,), and a step within which none is used up."""
 
 
-def safe_step(distances: Floats, floors: Floats, rates: Floats) -> float:
-    """A step within which no distance falls to its floor.
+def steps_by_speed(distances: Floats, speeds: Floats) -> Floats:
+    """Steps within which distances that change no faster than a bound are not gone.
 
     Args:
-        distances: The distances, shape (m,).
-        floors: What they shall stay above, shape (m,); −inf for one of no interest.
-        rates: Bounds on how fast each changes, shape (m,).
+        distances: The distances, shape (…).
+        speeds: Bounds on how fast they change, shape (…).
 
     Returns:
-        The step; infinite where nothing changes.
+        The steps, infinite where nothing changes, shape (…).
     """
-    moving = rates > 0
-    steps = (distances - floors)[moving] / rates[moving]
-    return float(np.min(steps, initial=math.inf))
+    still = np.full(np.broadcast(distances, speeds).shape, np.inf)
+    return np.asarray(np.divide(distances, speeds, still, where=speeds > 0))
+
+
+def steps_by_bend(distances: Floats, slopes: Floats, bends: Floats) -> Floats:
+    """Steps within which distances of bounded acceleration are not gone.
+
+    The first root of distance + slope·t − bend·t²/2.
+
+    Args:
+        distances: The distances, shape (…).
+        slopes: How fast they grow now, shape (…).
+        bends: Bounds on how fast that changes, ≥ 0, shape (…).
+
+    Returns:
+        The steps, 0 where a distance is gone already, shape (…).
+    """
+    left = np.maximum(distances, 0.0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        swing = np.sqrt(slopes**2 + 2 * bends * left)
+        # Two forms of one root, each without a difference of like numbers.
+        falling, rising = 2 * left / (swing - slopes), (swing + slopes) / bends
+    steps = np.where(slopes < 0, falling, np.where(bends > 0, rising, np.inf))
+    return np.where(np.isfinite(left), steps, np.inf)
 
 
 def first_reached(

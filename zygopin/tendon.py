@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin import checks
-from zygopin.advancement import Look, first_reached, safe_step
+from zygopin.advancement import Look, first_reached, steps_by_speed
 from zygopin.clearance import Clearance
 from zygopin.closing import Closing
 from zygopin.engine import ENGINES, EngineName
@@ -263,7 +263,8 @@ class TendonFoot:
 
         def look(time: float) -> tuple[Floats, float]:
             distances = self._distances(time)
-            return distances, safe_step(distances, floors, speeds)
+            steps = steps_by_speed(distances - floors, speeds)
+            return distances, float(steps.min())
 
         return look
 
@@ -279,8 +280,7 @@ class TendonFoot:
             return stop
         distances = self._distances(self.time)[waiting]
         speeds = self.flow.speeds(self.time, stop)[waiting]
-        far = np.full_like(distances, 2 * self.clear)
-        step = safe_step(far, distances, speeds)
+        step = float(steps_by_speed(2 * self.clear - distances, speeds).min())
         return min(stop, max(self.time + step, math.nextafter(self.time, math.inf)))
 
     def _engagement(self, phalanx: int) -> StrikeEvent:

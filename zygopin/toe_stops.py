@@ -7,23 +7,23 @@ meets the obstacle or another toe, and the joints farther out go on (MODEL.md, s
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin.advancement import Look, first_reached, safe_step
-from zygopin.clearance import Clearance, skin_distance
+from zygopin.advancement import Look, first_reached
+from zygopin.clearance import Clearance
 from zygopin.grasp import finger_pairs, least_gap
 from zygopin.stance import Stance, levers
+from zygopin.toe_motion import ToeMotion, steps_between, steps_to_solid
 
 Floats = NDArray[np.float64]
 Near = Callable[[Floats, Floats], Clearance]
 """Clearance to the obstacle of bones, shape (…, M, 2, 3), with skins of radii (M,)."""
 
-CLOSE = 0.25
+CLOSE = 0.01
 """Clearance over a phalanx's length below which it is looked at piece by piece."""
 
 CUTS = np.append(0.0, 4.0 ** np.arange(-12.0, 1.0))
@@ -52,7 +52,8 @@ class ToeStops:
     """Toes closing from a stance, all at once, until each has met something.
 
     At a progress w the control of joint j is uⱼ + (1 − uⱼ)·min(w, wⱼ): it starts from
-    where it is, never opens, and stays where it was when it stopped, at wⱼ.
+    where it is, never opens, and stays where it was when it stopped, at wⱼ. Phalanges
+    of two toes that overlap from the start do not hold each other up.
 
     Attributes:
         stance: Where the toes start.
@@ -71,13 +72,12 @@ class ToeStops:
         foot = stance.foot
         self.stance, self.near = stance, near
         self.pairs = finger_pairs(foot)
-        self.levers = foot.omega * (1 - stance.controls) * levers(foot)
-        self.turning = foot.omega * (1 - stance.controls) * (levers(foot) > 0)
+        self.driven = levers(foot) > 0
         self.stopped_at = np.full(foot.phalanx_count, np.inf)
         self.stops: list[Stop] = []
         # A toe may sink in by one such depth with each phalanx that stops.
         deepest = 2 * int(foot.rank_of_phalanx.max()) + 2
-        self.depth = tolerance / (2 * deepest)
+        self.tolerance, self.depth = tolerance, tolerance / (2 * deepest)
         gap = max(least_gap(foot, 2 * tolerance), 0.0)
         self.contact = np.zeros(foot.phalanx_count + len(self.pairs[0]))
         self.contact[foot.phalanx_count :] = gap
@@ -95,10 +95,12 @@ class ToeStops:
             end: Progress at the end, in [0, 1].
         """
         progress = 0.0
-        distances = self.distances(progress)
+        distances, _ = self.look(np.full(len(self.contact), -np.inf))(progress)
         level = np.minimum(distances, self.contact) - self.depth
+        overlap = distances[self.driven.shape[0] :] < -self.tolerance
+        level[self.driven.shape[0] :][overlap] = -np.inf
         while progress < end:
-            wanted = np.where(self.rates() > 0, level, -np.inf)
+            wanted = np.where(self.moving(), level, -np.inf)
             look = self.look(wanted - self.depth / 2)
             progress, distances = first_reached(look, (progress, end), wanted)
             met = distances <= wanted
@@ -108,71 +110,66 @@ class ToeStops:
             # Who goes on beyond a phalanx that stopped may still touch at its joint.
             level = np.where(met, distances - self.depth, level)
 
-    def bones(self, progress: float) -> Floats:
-        """Bones at a progress [m], shape (P, 2, 3)."""
+    def motion(self, progress: float) -> ToeMotion:
+        """How the phalanges move at a progress."""
         stance, controls = self.stance, self.controls(np.asarray(progress))
-        return Stance(stance.foot, stance.base, stance.azimuths, controls).bones
-
-    def distances(self, progress: float) -> Floats:
-        """Clearances to the obstacle, then between pairs of toes, shape (P + M,)."""
-        bones = self.bones(progress)
-        between = skin_distance(bones, self.stance.foot.radii, self.pairs)
-        return np.concatenate(
-            [self.near(bones, self.stance.foot.radii).distance, between]
-        )
+        here = Stance(stance.foot, stance.base, stance.azimuths, controls)
+        return ToeMotion.of(here, self.rates())
 
     def look(self, floors: Floats) -> Look:
-        """Clearances at a progress, and a step that misses nothing."""
-        rates, count = self.rates(), len(self.stopped_at)
-        length = self.stance.foot.lengths
+        """Clearances at a progress, to the obstacle and between toes, and a safe step.
+
+        Phalanges that are close to the obstacle are looked at piece by piece.
+        """
+        foot, count = self.stance.foot, self.stance.foot.phalanx_count
 
         def look(progress: float) -> tuple[Floats, float]:
-            distances = self.distances(progress)
-            close = (rates[:count] > 0) & (distances[:count] < CLOSE * length)
-            far = np.append(~close, np.ones(len(rates) - count, bool))
-            step = safe_step(distances[far], floors[far], rates[far])
-            pieces = self.step_in_pieces(progress, np.flatnonzero(close), floors)
-            return distances, min(step, pieces)
+            motion = self.motion(progress)
+            near = self.near(motion.bones, foot.radii)
+            steps = steps_to_solid(motion, foot.radii, near, floors[:count])
+            close = np.isfinite(steps) & (near.distance < CLOSE * foot.lengths)
+            which = np.flatnonzero(close)
+            if len(which):
+                each = self.steps_in_pieces(motion, which, floors[which])
+                steps[which] = np.maximum(steps[which], each)
+            between, others = steps_between(
+                motion, foot.radii, self.pairs, floors[count:]
+            )
+            step = min(steps.min(initial=np.inf), others.min(initial=np.inf))
+            return np.concatenate([near.distance, between]), float(step)
 
         return look
 
-    def step_in_pieces(
-        self, progress: float, phalanges: NDArray[np.intp], floors: Floats
-    ) -> float:
-        """The safe step of some phalanges, whose points near the joint move less."""
-        if not len(phalanges):
-            return math.inf
-        foot, moving = self.stance.foot, np.isinf(self.stopped_at)
-        bones = self.bones(progress)[phalanges]
-        along = (bones[:, 1] - bones[:, 0])[:, None]
-        cuts = bones[:, :1] + CUTS[:, None] * along
-        # A bone has two ends: far from the origin those of a piece may be as one.
-        shortest = 8 * np.spacing(np.abs(bones).max()) / foot.lengths[phalanges]
-        ends = np.maximum(CUTS[1:], CUTS[:-1] + shortest[:, None])[..., None]
-        pieces = np.stack([cuts[:, :-1], bones[:, :1] + ends * along], axis=-2)
-        pieces = pieces.reshape(-1, 2, 3)
-        count = len(CUTS) - 1
-        near = self.near(pieces, np.repeat(foot.radii[phalanges], count))
-        turning = self.turning[phalanges] @ moving * foot.lengths[phalanges]
-        far_end = self.levers[phalanges] @ moving
-        rates = far_end[:, None] - np.outer(turning, 1 - CUTS[1:])
-        under = np.repeat(floors[phalanges], count)
-        return safe_step(near.distance, under, rates.ravel())
+    def steps_in_pieces(
+        self, motion: ToeMotion, which: NDArray[np.intp], floors: Floats
+    ) -> Floats:
+        """Safe steps of some phalanges, whose points near the joint move less."""
+        pieces, count = motion.pieces(which, CUTS), len(CUTS) - 1
+        radii = np.repeat(self.stance.foot.radii[which], count)
+        near = self.near(pieces.bones, radii)
+        steps = steps_to_solid(pieces, radii, near, np.repeat(floors, count))
+        return np.asarray(steps.reshape(-1, count).min(axis=-1))
 
     def rates(self) -> Floats:
-        """Bounds on how fast these change with the progress, shape (P + M,)."""
-        speeds = self.levers @ np.isinf(self.stopped_at)
-        return np.concatenate([speeds, speeds[self.pairs[0]] + speeds[self.pairs[1]]])
+        """Rate of each joint's angle, 0 for one that has stopped [rad], shape (P,)."""
+        stance = self.stance
+        free = np.isinf(self.stopped_at)
+        return np.asarray(stance.foot.omega * (1 - stance.controls) * free)
+
+    def moving(self) -> NDArray[np.bool_]:
+        """Which phalanges still move, and which pairs of them, shape (P + M,)."""
+        alone = self.driven @ self.rates() > 0
+        return np.concatenate([alone, alone[self.pairs[0]] | alone[self.pairs[1]]])
 
     def stop(self, progress: float, met: NDArray[np.bool_], distances: Floats) -> None:
         """Stop the joints that drive what has met something: the innermost phalanx."""
         foot, count = self.stance.foot, len(self.stopped_at)
-        moving = self.rates()[:count] > 0
+        moving = self.moving()[:count]
         to_toe = np.full(count, np.inf)
         for ends in self.pairs:
             np.minimum.at(to_toe, ends[met[count:]], distances[count:][met[count:]])
         hit = (met[:count] | np.isfinite(to_toe)) & moving
-        points = self.near(self.bones(progress), foot.radii).point
+        points = self.near(self.motion(progress).bones, foot.radii).point
         for part in foot.finger_slices.values():
             if not hit[part].any():
                 continue
