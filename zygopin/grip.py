@@ -1,4 +1,4 @@
-"""How a foot holds an obstacle of any shape: its contacts, and what they enclose."""
+"""How a foot holds an obstacle of any shape: its contacts, and how they oppose."""
 
 from __future__ import annotations
 
@@ -44,7 +44,11 @@ class Grip:
 
     @property
     def grasping(self) -> bool:
-        """Whether two fingers touch at least a quarter turn apart."""
+        """Whether contact normals of two fingers are at least a quarter turn apart.
+
+        Any two fingers and any touch count; `GraspReport.grasping` asks for tangency
+        and an opposable pair.
+        """
         return bool(self.scalar_product <= 0)
 
 
