@@ -124,11 +124,13 @@ def grip_line(trajectory: StrikeTrajectory) -> str:
         Plain text.
     """
     grip, mode = trajectory.grip, str(trajectory.modes[-1])
-    if not grip.fingers:
-        words = [mode, "no toe touches the target"]
-    else:
+    if grip.fingers:
         held = f"{len(grip.fingers)} toes touch: {', '.join(grip.fingers)}"
         words = [mode, held, "grasping" if grip.grasping else "not grasping"]
+    elif grip.penetrating.any():
+        words = [mode, "toes pass into the target, none rests on it"]
+    else:
+        words = [mode, "no toe touches the target"]
     words.append("feasible" if grip.feasible else f"not feasible: {_why(trajectory)}")
     return "; ".join(words)
 
