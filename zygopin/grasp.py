@@ -183,7 +183,7 @@ def check_grasp(
     if made.foot != foot:
         remedy = "make the engine for this foot"
         raise ParameterError("engine.foot", made.foot.name, "the foot", remedy)
-    check_size(foot, branch)
+    check_branch(foot, branch)
     shapes = values.shape[:-1], branch.batch_shape
     batch = checks.common_batch("controls and branch", *shapes)
     count = int(np.prod(batch, dtype=int))
@@ -200,8 +200,8 @@ def check_grasp(
     return _joined(parts, branch, batch)
 
 
-def check_size(foot: Foot, branch: Branch) -> None:
-    """A branch is of a size and at a place that mean something to a foot.
+def check_branch(foot: Foot, branch: Branch) -> None:
+    """A branch leaves the base outside, and is of a size that means something.
 
     Args:
         foot: The foot.
