@@ -126,12 +126,7 @@ class GraspReport:
     scalar_product_base_to_tip: Floats
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if isinstance(value, (np.ndarray, np.generic)):
-                value = np.array(value)
-                value.setflags(write=False)
-                object.__setattr__(self, field.name, value)
+        checks.freeze(self)
 
     def difference(self, other: GraspReport) -> float:
         """Largest difference of clearances, the report's check by another engine.

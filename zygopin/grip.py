@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from zygopin import checks
 from zygopin.clearance import Clearance, skin_distance
 from zygopin.foot import Foot
 from zygopin.grasp import classify, finger_pairs, least_gap
@@ -41,6 +42,9 @@ class Grip:
     fingers: tuple[str, ...]
     scalar_product: float
     feasible: bool
+
+    def __post_init__(self) -> None:
+        checks.freeze(self)
 
     @property
     def grasping(self) -> bool:

@@ -30,7 +30,7 @@ RATE_ROUNDING = 1e-12, 1e-9
 """Excess over its bound that rounding may give to what hardly changes: absolute [1/s],
 and relative to the largest bound of the values that are given with it."""
 
-ALWAYS = checks.read_only(np.array([-np.inf, np.inf]))
+ALWAYS = np.array([-np.inf, np.inf])
 """The span of what never changes [s]."""
 
 Floats = NDArray[np.float64]
@@ -50,6 +50,9 @@ class Law:
     at: Callable[[Floats], Floats]
     times: Floats
     rates: Floats
+
+    def __post_init__(self) -> None:
+        checks.freeze(self)
 
     @classmethod
     def constant(cls, value: ArrayLike) -> Law:
@@ -138,6 +141,9 @@ class Motion:
     times: Floats
     speeds: Floats
     turn_rates: Floats
+
+    def __post_init__(self) -> None:
+        checks.freeze(self)
 
     @classmethod
     def through(

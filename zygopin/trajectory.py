@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from zygopin import checks
 from zygopin.closing import Reading
 from zygopin.foot import Foot
 from zygopin.grip import Grip
@@ -41,6 +42,9 @@ class StrikeEvent:
     phalanx: int | None = None
     point: NDArray[np.float64] | None = None
     clearance: float | None = None
+
+    def __post_init__(self) -> None:
+        checks.freeze(self)
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,6 +82,9 @@ class StrikeTrajectory:
     clearance: NDArray[np.float64]
     events: tuple[StrikeEvent, ...]
     grip: Grip
+
+    def __post_init__(self) -> None:
+        checks.freeze(self)
 
     @property
     def mode_starts(self) -> NDArray[np.intp]:
