@@ -27,8 +27,8 @@ CLOSE = 0.25
 """Clearance over a phalanx's length below which it is looked at piece by piece."""
 
 CUTS = np.append(0.0, 4.0 ** np.arange(-12.0, 1.0))
-"""Where it is cut: a phalanx that touches at its joint moves little there, and may
-turn all the way while it touches."""
+"""Where it is cut, over its length: a phalanx that touches at its joint moves little
+there, and may turn all the way while it touches. Fourfold steps, down to 6e-8."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +56,14 @@ class ToeStops:
 
     Attributes:
         stance: Where the toes start.
+        near: The clearance to the obstacle.
+        pairs: Phalanges of different fingers that can meet, M of them.
+        levers: Bounds on the speed of bone k as joint j closes, over the progress [m],
+            shape (P, P).
+        turning: The same for the bone's angular speed [rad], shape (P, P).
+        depth: How far below its level a clearance may fall before a joint stops [m].
+        contact: Clearances that count as a meeting, to the obstacle and between pairs
+            of toes [m], shape (P + M,).
         stopped_at: Progress wⱼ of each joint, infinite until it stops, shape (P,).
         stops: What was met, in order.
     """
@@ -105,7 +113,7 @@ class ToeStops:
             if not met.any():
                 return
             self.stop(progress, met, distances)
-            # Who goes on beyond a phalanx that stopped may still touch at its joint.
+            # A phalanx beyond a joint that stopped goes on, and may touch at its joint.
             level = np.where(met, distances - self.depth, level)
 
     def bones(self, progress: float) -> Floats:
@@ -122,7 +130,7 @@ class ToeStops:
         )
 
     def look(self, floors: Floats) -> Look:
-        """Clearances at a progress, and a step that misses nothing."""
+        """Clearances at a progress, and a step in which none falls to its floor."""
         rates, count = self.rates(), len(self.stopped_at)
         length = self.stance.foot.lengths
 
