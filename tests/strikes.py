@@ -24,13 +24,13 @@ KINDS = ("sphere", "branch", "stump", "box", "capsule", "mesh")
 
 PRESETS = ("parrot", "owl", "anisodactyl", "paper")
 
-GRID = 2001
+GRID = 1001
 """Instants between which a reference takes paths as straight."""
 
 BENT = 1.3
 """Length of a path over that of its chord, at most, between two of these instants."""
 
-COARSE = 40
+COARSE = 20
 """Steps of that grid that a reference starts with at once."""
 
 ROUNDING = 1e-3
@@ -197,14 +197,14 @@ def deepest_before(automaton, end):
     """Least clearance of a sensing phalanx from the flight's start to an instant.
 
     Intervals are halved until the length of each phalanx's path over one, measured on
-    a dense grid, shows that nothing in it is below what was found, or below zero.
+    a dense grid, shows that nothing in it is below what was found, or in contact.
 
     Args:
         automaton: A foot with its flight.
         end: The instant [s].
 
     Returns:
-        The least clearance [m]; where it is not negative, one of the interval's ends.
+        The least clearance [m]; where there is no contact, no less than it.
     """
     foot, flow = automaton.foot, automaton.flow
     grid = np.union1d(np.linspace(flow.start, end, GRID), _breaks(flow, end))
@@ -228,7 +228,7 @@ def deepest_before(automaton, end):
     slack = ROUNDING * automaton.tolerance / 2
     while True:
         length = _between(grid, paths, phalanx, low, high)
-        open_ = (below + above - length) / 2 < min(least, 0.0) - slack
+        open_ = (below + above - length) / 2 < min(least, automaton.tolerance) - slack
         low, high, below, above, phalanx = (
             x[open_] for x in (low, high, below, above, phalanx)
         )

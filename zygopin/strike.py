@@ -66,7 +66,8 @@ def simulate_strike(
         raise ParameterError("end of the motion", end, "a finite time", remedy)
     automaton.run(end)
     if automaton.mode == "locked":
-        automaton.run(max(end, automaton.time + HOLD * automaton.closing.duration))
+        lock = automaton.events[-1].time
+        automaton.run(max(end, lock + HOLD * automaton.closing.duration))
     return record(automaton, count)
 
 
