@@ -60,3 +60,9 @@ def test_bad_input_is_named(values, name):
         Attack(**values)
     with pytest.raises(ParameterError, match=r"target"):
         Attack().flight(OWL, (0, 0))
+
+
+@pytest.mark.parametrize("radius", [-1.0, math.nan])
+def test_a_radius_that_is_no_length_is_named(radius):
+    with pytest.raises(ParameterError, match=r"^radius = "):
+        Attack().flight(OWL, radius=radius)

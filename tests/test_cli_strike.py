@@ -64,7 +64,7 @@ def test_the_log_fits_the_terminal(run):
     ("change", "words"),
     [
         (("--miss-mm", "150,0"), "free; no toe touches the target; feasible"),
-        (("--reading", "paper"), "inside the target"),
+        (("--reading", "paper"), "toes pass into the target, none rests on it; not"),
     ],
 )
 def test_a_miss_and_a_toe_that_passes_through_exit_1(run, change, words):

@@ -257,6 +257,20 @@ def test_bad_laws_are_named(make, message):
         make()
 
 
+def test_a_position_in_the_last_row_is_named():
+    transposed = pose((1, 2, 3), 0.4).T
+    with pytest.raises(ParameterError, match=r"last row of pose.*1.0 is not"):
+        Motion.resting(transposed)
+    with pytest.raises(ParameterError, match=r"last row of motion.*1.0 is not"):
+        Motion.of(lambda _: transposed, end=1.0, speed=0.0)
+
+
 def test_a_pose_at_rest_is_a_matrix():
     with pytest.raises(ParameterError, match=r"pose.shape = \(3, 3\) is not \(4, 4\)"):
         Motion.resting(np.eye(3))
+
+
+def test_laws_and_motions_are_read_only():
+    law, motion = Law.through([0, 1], [0, 1]), Motion.resting()
+    for values in (law.times, law.rates, motion.times, motion.speeds):
+        assert not values.flags.writeable

@@ -65,13 +65,7 @@ def test_no_point_is_faster_or_bends_more_than_its_bound(seed):
 
 
 def test_one_phalanx_by_hand():
-    foot = Foot.from_mapping(
-        {
-            "rho": 2,
-            "omega": 1.5,
-            "fingers": [{"name": "a", "phalanges": 1, "azimuth": 0}],
-        }
-    )
+    foot = Foot(rho=2, omega=1.5, fingers=(Finger("a", 1, azimuth=0.0),))
     stance = Stance(foot, np.eye(4), np.zeros(1), np.zeros(1))
     motion = ToeMotion.of(stance, np.array([1.5]))
     assert motion.velocities[0] == pytest.approx(np.array([[0, 0, 0], [0, 0, -0.75]]))

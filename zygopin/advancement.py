@@ -1,7 +1,8 @@
 """Conservative advancement: when some distances first fall to their levels.
 
-A distance that changes no faster than a bound cannot be gone sooner than the distance
-over the bound. Steps of that length miss nothing, however thin or fast it is.
+A distance that changes no faster than a bound cannot vanish sooner than after the
+distance over the bound. Steps of that length miss nothing, however thin the obstacle or
+fast the motion.
 """
 
 from __future__ import annotations
@@ -59,14 +60,15 @@ def first_reached(
     """The first instant at which one of some distances has fallen to its level.
 
     Args:
-        look: The distances, and a safe step to floors below the levels: those make
-            that the levels are reached in finitely many steps.
+        look: The distances, and a step that is safe down to floors: these lie below
+            the levels, so that the levels are reached in finitely many steps.
         span: The first and the last instant.
         levels: The levels, shape (m,); −inf for a distance of no interest.
 
     Returns:
         The instant and the distances then; the last of the span where none falls to
-        its level. None is below its floor at any instant before, but for the first.
+        its level. Between the span's first instant and this one none is below its
+        floor.
     """
     time, last = span
     while True:

@@ -18,7 +18,8 @@ SPEED = 3.0
 """Speed of the foot, unless said otherwise [m/s]: illustrative."""
 
 SLOPE = math.radians(60)
-"""Slope of its way down, unless said otherwise [rad]: illustrative."""
+"""Angle of its way down below the horizontal, unless said otherwise [rad]:
+illustrative."""
 
 OPEN = 0.1
 """Controls of the opened toes, unless said otherwise: a little bent."""
@@ -39,7 +40,7 @@ class Attack:
 
     Attributes:
         speed: Speed along the way > 0 [m/s].
-        slope: Slope of the way down, from above 0 to a right angle [rad].
+        slope: Angle of the way down below the horizontal, in (0, π/2] [rad].
         opened: Controls of the opened toes, in [0, 1].
         reversal: Turn of the reversible toes when they have opened: 0 leaves them in
             the zygodactyl pose, 1 takes them to the spread one.
@@ -65,7 +66,8 @@ class Attack:
         Args:
             foot: The foot.
             target: The point, in the world's frame [m], shape (3,).
-            radius: How large the target is around it [m]: the way is longer by that.
+            radius: Radius ≥ 0 of a ball around it that holds the target [m]: the way
+                is longer by that before and behind.
 
         Returns:
             The flight, from time 0.
@@ -75,6 +77,13 @@ class Attack:
         """
         place = checks.array("target", target)
         checks.shaped("target", place, (3,))
+        radius = checks.number(
+            "radius",
+            radius,
+            allowed="a length ≥ 0",
+            where=lambda x: x >= 0,
+            remedy="give metres, such as 0.015",
+        )
         down = np.array([math.cos(self.slope), 0.0, -math.sin(self.slope)])
         ways = np.array([LEVEL, DESCENT, BEYOND]) * foot.size + (0, radius, radius)
         turn = place - ways[1] * down

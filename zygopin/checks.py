@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -188,6 +189,18 @@ def read_only(values: NDArray[Any]) -> NDArray[Any]:
     """The array itself, made read-only."""
     values.flags.writeable = False
     return values
+
+
+def freeze(record: Any) -> None:  # noqa: ANN401
+    """Replace the arrays of a frozen dataclass by copies that are read-only.
+
+    Args:
+        record: The record, while it is being made.
+    """
+    for field in fields(record):
+        value = getattr(record, field.name)
+        if isinstance(value, (np.ndarray, np.generic)):
+            object.__setattr__(record, field.name, read_only(np.array(value)))
 
 
 def require(

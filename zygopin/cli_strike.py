@@ -209,7 +209,7 @@ def _print(found: StrikeTrajectory, files: dict[str, Path | None]) -> None:
 
     click.echo(f"{found.foot.name} strikes at a {target_line(found.obstacle)}")
     if found.events:
-        headings = ("time [ms]", "toe", "phalanx", "what happens", "gap [µm]")
+        headings = ("time [ms]", "toe", "phalanx", "what happens", "clearance [µm]")
         print_table(headings, event_rows(found), "rlrlr")
     click.echo(grip_line(found))
     for name, path in files.items():

@@ -17,7 +17,9 @@ from zygopin.errors import ParameterError, UnknownNameError
 
 Reading = Literal["paper", "contact"]
 """`paper`: all controls equal v, through the obstacle. `contact`: controls start from
-where they are, never open, and joints stop as their toes meet something."""
+where they are, never open, and joints stop as their toes meet something. A control u
+becomes u + (1 − u)·(v − v(0))/(1 − v(0)), so that it does not jump; v(0) = 1 closes
+nothing."""
 
 READINGS: tuple[Reading, ...] = ("paper", "contact")
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from zygopin.branch import Branch
 from zygopin.clearance import Clearance, Floats, Nearest, dot
-from zygopin.obstacle import Box, Capsule, ConvexMesh, Sphere
+from zygopin.obstacle import Capsule, ConvexMesh, Solid, Sphere
 
 REACH = 2.0
 """Half-length of the capsule that stands for a branch, in units of the foot's
@@ -70,7 +70,7 @@ def branch_clearance(bones: Floats, radii: Floats, branch: Branch) -> Clearance:
     )
 
 
-def solid_nearest(bones: Floats, solid: Sphere | Capsule | Box | ConvexMesh) -> Nearest:
+def solid_nearest(bones: Floats, solid: Solid) -> Nearest:
     """Where bare bones are nearest to a solid, by FCL.
 
     A sphere or capsule is asked for as its core: FCL's distances between cores are
@@ -208,7 +208,7 @@ def _capsules(bones: Floats, radii: Floats) -> list[fcl.CollisionObject]:
 
 
 def _solid(
-    solid: Sphere | Capsule | Box | ConvexMesh, origin: Floats, unit: float
+    solid: Solid, origin: Floats, unit: float
 ) -> tuple[fcl.CollisionObject, Floats, float]:
     """A solid, or its core, seen from a place; its middle, and the core's radius."""
     straight = np.array([1.0, 0.0, 0.0, 0.0])

@@ -1,4 +1,4 @@
-"""The source's figure of a toe that its tendon closes, and of its talon's way."""
+"""The source's figure of a toe that its tendon closes, and of its talon's path."""
 
 from __future__ import annotations
 
@@ -10,15 +10,17 @@ from numpy.typing import ArrayLike, NDArray
 from zygopin import checks
 from zygopin.engagement import checked_stages, engaged_junctions
 from zygopin.figures import (
+    FINE,
     INK,
     PALE,
-    Axes,
     Normalize,
     ScalarMappable,
     colormaps,
+    draw_toe,
     foot_title,
     name_axes,
     new_figure,
+    note,
     save_figure,
     to_hex,
     unit_of,
@@ -32,14 +34,7 @@ STAGES = 7
 PANEL, FLATTEST = 4.6, 0.45
 """Width of a toe's panel [inches], and its least height over that."""
 
-FINE = 721
-"""Values of v along a curve."""
-
-NOTE = 24
-"""Distance from a point to the middle of its note [points]."""
-
 Floats = NDArray[np.float64]
-Points = NDArray[np.complex128]
 
 
 def plot_engagement(
@@ -49,7 +44,7 @@ def plot_engagement(
     finger: str | int | None = None,
     stages: int | ArrayLike = STAGES,
 ) -> Path:
-    """Draw a toe at stages of its closing, and the way of its talon: the source's TLM.
+    """Draw a toe at stages of its closing, and the path of its talon: the source's TLM.
 
     All controls equal v, from 0 to 1, in the finger's plane.
 
@@ -71,24 +66,25 @@ def plot_engagement(
     shown = stages if np.ndim(stages) else _equal_steps(stages)
     values, unit = checked_stages("stages", shown), unit_of(foot)
     points = engaged_junctions(foot, toe, values) * unit.per_metre
-    way = engaged_junctions(foot, toe, np.linspace(0, 1, FINE))[:, -1] * unit.per_metre
+    track = engaged_junctions(foot, toe, np.linspace(0, 1, FINE))[:, -1]
+    track *= unit.per_metre
     scale = ScalarMappable(Normalize(0, 1), colormaps["viridis_r"])
     colours = [to_hex(scale.cmap(float(value))) for value in values]
-    spread = np.append(points.ravel(), way)
+    spread = np.append(points.ravel(), track)
     tall = float(np.ptp(spread.imag) / max(np.ptp(spread.real), np.ptp(spread.imag)))
     figure = new_figure(11.0, 1.6 + PANEL * max(tall, FLATTEST))
     left, right = figure.subplots(1, 2, sharex=True, sharey=True)
     for colour, junctions in zip(colours, points, strict=True):
         draw_toe(left, junctions, colour)
-    right.plot(way.real, way.imag, color=INK, linewidth=1.0)
+    right.plot(track.real, track.imag, color=INK, linewidth=1.0)
     tips = points[:, -1]
     right.scatter(tips.real, tips.imag, c=colours, zorder=3)
-    for value, place in ((0, way[0]), (1, way[-1])):
+    for value, place in ((0, track[0]), (1, track[-1])):
         right.plot(place.real, place.imag, "o", ms=10, mfc="none", mec=INK)
         note(right, f"v = {value}", place)
     for panel, title in (
         (left, f"{toe.name}, stages of v"),
-        (right, "way of its talon"),
+        (right, "path of its talon"),
     ):
         panel.set_title(title, fontsize=9)
         panel.plot(0, 0, "s", color=INK, markersize=5)
@@ -104,39 +100,3 @@ def plot_engagement(
 def _equal_steps(count: object) -> Floats:
     """So many values from 0 to 1."""
     return np.linspace(0, 1, checks.integer("stages", count, 2, FINE))
-
-
-def draw_toe(panel: Axes, points: Points, colour: str, width: float = 1.8) -> None:
-    """Draw a toe as a line with its junctions.
-
-    Args:
-        panel: The panel.
-        points: The junctions, in the panel's unit, shape (K + 1,).
-        colour: The colour.
-        width: The line's width [points].
-    """
-    x, z = points.real, points.imag
-    panel.plot(x, z, "o-", color=colour, linewidth=width, markersize=3.5)
-
-
-def note(panel: Axes, text: str, place: complex, away: complex = -1) -> None:
-    """Write a few words beside a point.
-
-    Args:
-        panel: The panel.
-        text: The words.
-        place: The point, in the panel's unit.
-        away: Direction of the words from the point.
-    """
-    away *= NOTE / abs(away)
-    panel.annotate(
-        text,
-        (place.real, place.imag),
-        xytext=(away.real, away.imag),
-        textcoords="offset points",
-        ha="center",
-        va="center",
-        fontsize=9,
-        color=INK,
-        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 1},
-    )

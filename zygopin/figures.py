@@ -1,4 +1,4 @@
-"""What all figures share: units, the names of axes, the file.
+"""What figures share: units, the names of axes, toes and notes, the file.
 
 Matplotlib comes from here alone, so that its absence is told once.
 """
@@ -9,6 +9,9 @@ import io
 import math
 from dataclasses import dataclass
 from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
 
 from zygopin.errors import MissingExtraError
 from zygopin.files import write_bytes
@@ -36,6 +39,12 @@ LARGE = 0.5
 
 THIN, THICK = 1.2, 3.4
 """Widths of lines that may coincide, the last and the first [points]."""
+
+FINE = 721
+"""Values of v along a curve."""
+
+NOTE = 24
+"""Distance from a point to the middle of its note [points]."""
 
 INK, ACCENT, PALE = "#22272e", "#c0392b", "#c9ced6"
 
@@ -120,6 +129,44 @@ def line_width(index: int, count: int) -> float:
         The width [points].
     """
     return THIN + (THICK - THIN) * (count - 1 - index) / max(count - 1, 1)
+
+
+def draw_toe(
+    panel: Axes, points: NDArray[np.complex128], colour: str, width: float = 1.8
+) -> None:
+    """Draw a toe as a line with its junctions.
+
+    Args:
+        panel: The panel.
+        points: The junctions, in the panel's unit, shape (K + 1,).
+        colour: The colour.
+        width: The line's width [points].
+    """
+    x, z = points.real, points.imag
+    panel.plot(x, z, "o-", color=colour, linewidth=width, markersize=3.5)
+
+
+def note(panel: Axes, text: str, place: complex, away: complex = -1) -> None:
+    """Write a few words beside a point.
+
+    Args:
+        panel: The panel.
+        text: The words.
+        place: The point, in the panel's unit.
+        away: Direction of the words from the point.
+    """
+    away *= NOTE / abs(away)
+    panel.annotate(
+        text,
+        (place.real, place.imag),
+        xytext=(away.real, away.imag),
+        textcoords="offset points",
+        ha="center",
+        va="center",
+        fontsize=9,
+        color=INK,
+        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 1},
+    )
 
 
 def save_figure(figure: Figure, path: Path | str) -> Path:

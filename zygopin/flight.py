@@ -39,6 +39,9 @@ class FreeFlow:
 
     Attributes:
         foot: The foot.
+        motion: The base's motion.
+        controls: Controls over time, of shape (P,).
+        reversal: Turn of the reversible toes over time, of shape ().
         start: When the flight starts [s].
         end: When it ends [s]; infinite for what never changes.
     """
@@ -75,10 +78,11 @@ class FreeFlow:
         return Stance(self.foot, self.motion.at(times), azimuths, controls)
 
     def speeds(self, start: float, end: float) -> Floats:
-        """Bounds on the speed of any point of each phalanx between two instants.
+        """Bounds on the speed of any point of each bone between two instants.
 
-        The base's own speed, the turns of base and toe over the phalanx's reach, and
-        each joint's rate over its distance from the phalanx's far end.
+        The base's own speed, the turning rates of base and toe times the bone's reach,
+        and each joint's rate times its distance along the toe to the bone's far end. A
+        clearance changes no faster: the skin's radius is constant.
 
         Args:
             start: The earlier instant [s].

@@ -126,12 +126,7 @@ class GraspReport:
     scalar_product_base_to_tip: Floats
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if isinstance(value, (np.ndarray, np.generic)):
-                value = np.array(value)
-                value.setflags(write=False)
-                object.__setattr__(self, field.name, value)
+        checks.freeze(self)
 
     def difference(self, other: GraspReport) -> float:
         """Largest difference of clearances, the report's check by another engine.
@@ -183,7 +178,7 @@ def check_grasp(
     if made.foot != foot:
         remedy = "make the engine for this foot"
         raise ParameterError("engine.foot", made.foot.name, "the foot", remedy)
-    check_size(foot, branch)
+    check_branch(foot, branch)
     shapes = values.shape[:-1], branch.batch_shape
     batch = checks.common_batch("controls and branch", *shapes)
     count = int(np.prod(batch, dtype=int))
@@ -200,8 +195,8 @@ def check_grasp(
     return _joined(parts, branch, batch)
 
 
-def check_size(foot: Foot, branch: Branch) -> None:
-    """A branch is of a size and at a place that mean something to a foot.
+def check_branch(foot: Foot, branch: Branch) -> None:
+    """A branch leaves the base outside, and is of a size that means something.
 
     Args:
         foot: The foot.

@@ -1,4 +1,4 @@
-"""How a foot holds an obstacle of any shape: its contacts, and what they enclose."""
+"""How a foot holds an obstacle of any shape: its contacts, and how they oppose."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from zygopin import checks
 from zygopin.clearance import Clearance, skin_distance
 from zygopin.foot import Foot
 from zygopin.grasp import classify, finger_pairs, least_gap
@@ -42,9 +43,16 @@ class Grip:
     scalar_product: float
     feasible: bool
 
+    def __post_init__(self) -> None:
+        checks.freeze(self)
+
     @property
     def grasping(self) -> bool:
-        """Whether two fingers touch at least a quarter turn apart."""
+        """Whether contact normals of two fingers are at least a quarter turn apart.
+
+        Any two fingers and any touch count; `GraspReport.grasping` asks for tangency
+        and an opposable pair.
+        """
         return bool(self.scalar_product <= 0)
 
 

@@ -1,8 +1,8 @@
 """Functions of time that bound how fast they change: control laws and base motions.
 
-Who steps over time can then be sure to miss nothing. Waypoints bound themselves. Of a
-callable nothing is known between two calls, so its bound is given with it, and held
-against it at `PROBES` instants.
+With such a bound, steps over time can be chosen so that nothing is missed between
+them. Waypoints imply their own. A callable is unknown between two calls, so its bound
+is given with it, and checked at `PROBES` instants.
 """
 
 from __future__ import annotations
@@ -24,7 +24,11 @@ RATE_SLACK = 1e-6
 """Relative excess over its bound that a callable's rate may have: rounding."""
 
 ORTHONORMAL = 1e-6
-"""How far a rotation's entries may be from a true one's: written with six digits."""
+"""How far a pose's entries may be from a true one's: written with six digits."""
+
+RATE_ROUNDING = 1e-12, 1e-9
+"""Excess over its bound that rounding may give to what hardly changes: absolute [1/s],
+and relative to the largest bound of the values that are given with it."""
 
 ALWAYS = np.array([-np.inf, np.inf])
 """The span of what never changes [s]."""
@@ -34,7 +38,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Law:
-    """Values over time.
+    """Values over time, made by `constant`, `through` or `of`.
 
     Attributes:
         at: Values at instants of shape (n,), shape (n, …).
@@ -46,6 +50,9 @@ class Law:
     at: Callable[[Floats], Floats]
     times: Floats
     rates: Floats
+
+    def __post_init__(self) -> None:
+        checks.freeze(self)
 
     @classmethod
     def constant(cls, value: ArrayLike) -> Law:
@@ -121,7 +128,7 @@ class Law:
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """Poses of the foot's base over time.
+    """Poses of the foot's base over time, made by `resting`, `through` or `of`.
 
     Attributes:
         at: T_world_base at instants of shape (n,), shape (n, 4, 4).
@@ -134,6 +141,9 @@ class Motion:
     times: Floats
     speeds: Floats
     turn_rates: Floats
+
+    def __post_init__(self) -> None:
+        checks.freeze(self)
 
     @classmethod
     def through(
@@ -199,10 +209,7 @@ class Motion:
         instants = _probes(end)
         at = _called("motion", function)
         poses = at(instants)
-        if poses.shape[1:] != (4, 4):
-            remedy = "return T_world_base as a matrix"
-            raise ParameterError("motion.shape", poses.shape[1:], "(4, 4)", remedy)
-        _check_rotations("motion", poses[:, :3, :3])
+        _check_poses("motion", poses)
         bounds = [_as_bound("speed", speed, ()), _as_bound("turn_rate", turn_rate, ())]
         moves = np.linalg.norm(np.diff(poses[:, :3, 3], axis=0), axis=1)
         angles = _angles(poses[:, :3, :3])
@@ -227,10 +234,7 @@ class Motion:
             ParameterError: It is no pose.
         """
         place = checks.array("pose", np.eye(4) if pose is None else pose)
-        if place.shape != (4, 4):
-            remedy = "give T_world_base as a matrix"
-            raise ParameterError("pose.shape", place.shape, "(4, 4)", remedy)
-        _check_rotations("pose", place[None, :3, :3])
+        _check_poses("pose", place[None])
         zero = np.zeros(1)
         return cls(lambda times: _repeated(place, len(times)), ALWAYS, zero, zero)
 
@@ -319,8 +323,9 @@ def _per_step(changes: Floats, times: Floats) -> Floats:
 def _check_rates(name: str, measured: Floats, bound: Floats) -> None:
     """A callable keeps to its bound between neighbouring probes."""
     largest = measured.max(axis=0)
-    tiny = 1e-9 * np.abs(bound).max(initial=0.0) + 1e-12
-    good = bound >= largest * (1 - RATE_SLACK) - tiny
+    absolute, relative = RATE_ROUNDING
+    rounding = absolute + relative * np.abs(bound).max(initial=0.0)
+    good = bound >= largest * (1 - RATE_SLACK) - rounding
     worst = f"at least the {largest.max():.4g} that the function has between two probes"
     remedy = "raise the bound, or smooth the function"
     checks.require(name, np.asarray(bound), good, worst, remedy)
@@ -361,6 +366,17 @@ def _as_samples(
         remedy = "give one value for each instant"
         raise ParameterError(f"{name}.shape", samples.shape, allowed, remedy)
     return samples
+
+
+def _check_poses(name: str, matrices: Floats) -> None:
+    """Matrices are homogeneous transforms, shape (n, 4, 4)."""
+    remedy = "give T_world_base: rotation, position at the right, last row 0, 0, 0, 1"
+    if matrices.shape[1:] != (4, 4):
+        raise ParameterError(f"{name}.shape", matrices.shape[1:], "(4, 4)", remedy)
+    _check_rotations(name, matrices[:, :3, :3])
+    last = matrices[:, 3]
+    good = np.abs(last - (0, 0, 0, 1)) <= ORTHONORMAL
+    checks.require(f"last row of {name}", last, good, "(0, 0, 0, 1)", remedy)
 
 
 def _check_rotations(name: str, matrices: Floats) -> None:

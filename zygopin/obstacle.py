@@ -136,8 +136,19 @@ class ConvexMesh:
         object.__setattr__(self, "planes", checks.read_only(planes))
 
 
-Obstacle = Branch | Sphere | Box | Capsule | ConvexMesh
+Solid = Sphere | Box | Capsule | ConvexMesh
+"""A solid that is no branch."""
+
+Obstacle = Branch | Solid
 """What a foot can meet; a `Branch` here is one, not a batch."""
+
+_NOUNS = {
+    Branch: "branch",
+    Sphere: "ball",
+    Box: "box",
+    Capsule: "capsule",
+    ConvexMesh: "polyhedron",
+}
 
 
 def as_obstacle(value: object) -> Obstacle:
@@ -159,6 +170,18 @@ def as_obstacle(value: object) -> Obstacle:
         remedy = "take one branch at a time"
         raise ParameterError("obstacle batch", value.batch_shape, "()", remedy)
     return value
+
+
+def obstacle_noun(obstacle: Obstacle) -> str:
+    """What an obstacle is called.
+
+    Args:
+        obstacle: The obstacle.
+
+    Returns:
+        A noun in plain English, such as `ball`.
+    """
+    return _NOUNS[type(obstacle)]
 
 
 def _length(name: str, value: ArrayLike) -> float:

@@ -17,26 +17,6 @@ PREY = Paint(0x9C8878, opacity=0.85)
 
 PATH = "obstacle"
 
-_NOUNS = {
-    Branch: "branch",
-    Sphere: "ball",
-    Box: "box",
-    Capsule: "capsule",
-    ConvexMesh: "polyhedron",
-}
-
-
-def obstacle_noun(obstacle: Obstacle) -> str:
-    """What an obstacle is called.
-
-    Args:
-        obstacle: The obstacle.
-
-    Returns:
-        A noun.
-    """
-    return _NOUNS[type(obstacle)]
-
 
 def obstacle_paint(obstacle: Obstacle) -> Paint:
     """The look of an obstacle.

@@ -154,15 +154,15 @@ def contact_kept(
     Raises:
         ParameterError: A value is out of range or of a wrong shape.
     """
-    solid, near = as_obstacle(obstacle), _tolerance(foot, tolerance)
+    solid, within = as_obstacle(obstacle), _tolerance(foot, tolerance)
     pose = Motion.resting(base).at(np.zeros(1))[0]
     turns = as_azimuths(foot, azimuths)
     checks.shaped("azimuths", turns, (len(foot.fingers),))
     found = {}
     for finger, azimuth in zip(foot.fingers, turns, strict=True):
         swept = Sweep(foot, finger, pose @ about_z(azimuth), solid)
-        found[finger.name] = swept.contacts(near)
-    return ContactKept(found, near)
+        found[finger.name] = swept.contacts(within)
+    return ContactKept(found, within)
 
 
 def counterexample(

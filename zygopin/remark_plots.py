@@ -10,19 +10,21 @@ from numpy.typing import NDArray
 
 from zygopin.drawing import finger_paint
 from zygopin.engagement import engaged_junctions
-from zygopin.engagement_plots import FINE, draw_toe, note
 from zygopin.figures import (
     ACCENT,
+    FINE,
     INK,
     PALE,
     Axes,
     Circle,
     Polygon,
     Unit,
+    draw_toe,
     foot_title,
     line_width,
     name_axes,
     new_figure,
+    note,
     save_figure,
     unit_of,
 )
@@ -67,7 +69,7 @@ def plot_remark(
     figure = new_figure(11.0, 4.8)
     left, right = figure.subplots(1, 2, width_ratios=(1.2, 1))
     _draw_stages(left, found, unit)
-    _draw_gaps(right, found, unit)
+    _draw_clearances(right, found, unit)
     figure.suptitle(foot_title(foot), fontsize=11)
     return save_figure(figure, path)
 
@@ -101,16 +103,16 @@ def _draw_stages(panel: Axes, found: Counterexample, unit: Unit) -> None:
     name_axes(panel, unit)
 
 
-def _draw_gaps(panel: Axes, found: Counterexample, unit: Unit) -> None:
+def _draw_clearances(panel: Axes, found: Counterexample, unit: Unit) -> None:
     """Clearance of each finger's first phalanx, as v goes from 0 to 1."""
     values = np.linspace(0, 1, FINE)
     for index, finger in enumerate(found.foot.fingers):
         pose = about_z(finger.azimuth)
-        gaps = Sweep(found.foot, finger, pose, found.obstacle).gaps(values)
+        swept = Sweep(found.foot, finger, pose, found.obstacle)
+        clearances = swept.clearances(values) * unit.per_metre
         colour = finger_paint(index).css
         width = line_width(index, len(found.foot.fingers))
-        gaps *= unit.per_metre
-        panel.plot(values, gaps, color=colour, linewidth=width, label=finger.name)
+        panel.plot(values, clearances, color=colour, linewidth=width, label=finger.name)
     low, high = panel.get_ylim()
     panel.axhspan(low, 0, color=WOOD, alpha=0.25, linewidth=0)
     panel.axhline(0, color=INK, linewidth=0.7)

@@ -21,7 +21,15 @@ from zygopin.clearance import (
 )
 from zygopin.engine import ENGINES, EngineName
 from zygopin.errors import UnknownNameError
-from zygopin.obstacle import Box, Capsule, ConvexMesh, Obstacle, Sphere, as_obstacle
+from zygopin.obstacle import (
+    Box,
+    Capsule,
+    ConvexMesh,
+    Obstacle,
+    Solid,
+    Sphere,
+    as_obstacle,
+)
 from zygopin.polytope import Polytope
 
 AT_END = 1e-9
@@ -34,7 +42,6 @@ of its line: rounding of a normal."""
 ON_CORE = 1e-12
 """Distance from the core over the radius below which it has no direction."""
 
-Solid = Sphere | Capsule | Box | ConvexMesh
 Route = Callable[[Floats], Nearest]
 
 

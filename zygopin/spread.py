@@ -16,12 +16,12 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize_scalar
 
 from zygopin import checks, names
-from zygopin.control_system import frozen
 from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.extent import convex_hull
 from zygopin.foot import Foot
 from zygopin.kinematics import Controls, as_controls, forward_kinematics
 from zygopin.stadiums import Stadiums
+from zygopin.stance import azimuths_at
 
 Phalanges = Literal["first", "all"]
 """Which phalanges count: the first ones, whose contact closes the foot, or all."""
@@ -32,6 +32,7 @@ STEPS = 181
 """Reversals that a study looks at, unless said otherwise."""
 
 MOST_STEPS = 100_001
+"""Reversals that a study may have: some minutes."""
 
 LARGEST_RADIUS = 1e6
 """Largest target [m]: that of the largest foot."""
@@ -41,7 +42,6 @@ WIDTH = 1e-10
 
 EQUALITY = 1e-9
 """Part of an area by which it may lie below another and still count as equal."""
-
 
 FLAT = 1e-14
 """Hulls smaller than this part of the square of the foot's size are lines: rounding."""
@@ -221,7 +221,7 @@ def spread_study(
         )
 
     curves = (_curve(area, reversal) for area in (hull, strike("first"), strike("all")))
-    return SpreadStudy(foot, radius, frozen(reversal), *curves)
+    return SpreadStudy(foot, radius, checks.read_only(reversal), *curves)
 
 
 _Area = Callable[[ArrayLike], NDArray[np.float64]]
@@ -243,7 +243,7 @@ def _curve(area: _Area, reversal: NDArray[np.float64]) -> SpreadCurve:
     between = float(area(found.x))
     if between > largest:
         best, largest = float(found.x), between
-    return SpreadCurve(frozen(areas), best, largest)
+    return SpreadCurve(checks.read_only(areas), best, largest)
 
 
 def _projected(
@@ -259,12 +259,9 @@ def _projected(
     inside = (turn >= 0) & (turn <= 1)
     remedy = "0 is the zygodactyl pose, 1 the spread one"
     checks.require("reversal", turn, inside, "in [0, 1]", remedy)
-    own = np.array([finger.azimuth for finger in foot.fingers])
-    reversals = np.array([finger.reversal for finger in foot.fingers])
-    azimuths = own + turn[..., None] * reversals
     straight = np.zeros(foot.phalanx_count)
     chosen = straight if controls is None else controls
-    bones = forward_kinematics(foot, chosen, azimuths=azimuths)
+    bones = forward_kinematics(foot, chosen, azimuths=azimuths_at(foot, turn))
     return np.asarray(bones[..., 0] + 1j * bones[..., 1])
 
 

@@ -53,7 +53,7 @@ def azimuths_at(foot: Foot, reversal: Floats) -> Floats:
 
 
 def levers(foot: Foot) -> Floats:
-    """Farthest that a joint can be from points of a phalanx that it turns.
+    """Farthest that a joint can be from points of a bone that it turns.
 
     Args:
         foot: The foot.

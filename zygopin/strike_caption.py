@@ -9,7 +9,8 @@ from html import escape
 import numpy as np
 
 from zygopin.caption import Key, Lengths, foot_rows, legend, ratio, section
-from zygopin.obstacle_drawing import obstacle_noun, obstacle_rows
+from zygopin.obstacle import obstacle_noun
+from zygopin.obstacle_drawing import obstacle_rows
 from zygopin.playback import Span, clock_decimals, page_time
 from zygopin.trajectory import EventKind, StrikeEvent, StrikeTrajectory
 

@@ -14,7 +14,7 @@ from zygopin.archive import write_archive
 from zygopin.errors import ParameterError
 from zygopin.files import write_text
 from zygopin.kinematics import by_finger
-from zygopin.obstacle import Obstacle
+from zygopin.obstacle import Obstacle, obstacle_noun
 from zygopin.trajectory import StrikeEvent, StrikeTrajectory
 
 SERIES = ("times", "modes", "controls", "azimuths", "base", "bones", "clearance")
@@ -49,7 +49,7 @@ def strike_document(trajectory: StrikeTrajectory) -> dict[str, Any]:
             "time": float(trajectory.times[-1]),
             "mode": str(trajectory.modes[-1]),
             "base": trajectory.base[-1].tolist(),
-            "azimuths": _by_name(trajectory),
+            "azimuths": _azimuths(trajectory),
             "controls": by_finger(foot, trajectory.controls[-1]),
         },
         "grip": {
@@ -124,11 +124,13 @@ def grip_line(trajectory: StrikeTrajectory) -> str:
         Plain text.
     """
     grip, mode = trajectory.grip, str(trajectory.modes[-1])
-    if not grip.fingers:
-        words = [mode, "no toe touches the target"]
-    else:
+    if grip.fingers:
         held = f"{len(grip.fingers)} toes touch: {', '.join(grip.fingers)}"
         words = [mode, held, "grasping" if grip.grasping else "not grasping"]
+    elif grip.penetrating.any():
+        words = [mode, "toes pass into the target, none rests on it"]
+    else:
+        words = [mode, "no toe touches the target"]
     words.append("feasible" if grip.feasible else f"not feasible: {_why(trajectory)}")
     return "; ".join(words)
 
@@ -140,13 +142,13 @@ def target_line(obstacle: Obstacle) -> str:
         obstacle: The obstacle.
 
     Returns:
-        Such as `sphere of radius 15 mm`.
+        Such as `ball of radius 15 mm`.
     """
-    name = type(obstacle).__name__.lower()
+    noun = obstacle_noun(obstacle)
     radius = getattr(obstacle, "radius", None)
     if radius is None:
-        return name
-    return f"{name} of radius {float(radius) * 1e3:.6g} mm"
+        return noun
+    return f"{noun} of radius {float(radius) * 1e3:.6g} mm"
 
 
 def obstacle_mapping(obstacle: Obstacle) -> dict[str, Any]:
@@ -201,7 +203,7 @@ def _phalanx(trajectory: StrikeTrajectory, index: int) -> dict[str, Any]:
     }
 
 
-def _by_name(trajectory: StrikeTrajectory) -> dict[str, float]:
+def _azimuths(trajectory: StrikeTrajectory) -> dict[str, float]:
     """The fingers' azimuths at the end [rad]."""
     names = [finger.name for finger in trajectory.foot.fingers]
     return dict(zip(names, trajectory.azimuths[-1].tolist(), strict=True))

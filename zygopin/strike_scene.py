@@ -22,11 +22,10 @@ from zygopin.drawing import (
 )
 from zygopin.errors import ParameterError
 from zygopin.files import write_text
-from zygopin.obstacle import Capsule
+from zygopin.obstacle import Capsule, obstacle_noun
 from zygopin.obstacle_drawing import (
     draw_obstacle,
     obstacle_extent,
-    obstacle_noun,
     obstacle_paint,
 )
 from zygopin.playback import Playback, Span, Track
@@ -62,7 +61,7 @@ WHOLE, AXES = "/meshcat", "axes"
 
 CONTACT = STABLE
 FADED = 0.4
-"""Share of white in the colour of a talon's way."""
+"""Share of white in the colour of a talon's path."""
 
 
 def export_strike(
@@ -99,7 +98,7 @@ def export_strike(
     canvas = Canvas(recorder, view.target, view.unit)
     draw_foot(canvas, trajectory.foot, trajectory.bones[0])
     draw_obstacle(canvas, trajectory.obstacle, drawn_stretch(trajectory))
-    _draw_ways(canvas, trajectory, frames)
+    _draw_paths(canvas, trajectory, frames)
     playback = Playback(
         trajectory.times[frames],
         [*_following(trajectory, canvas), *_tracks(trajectory, frames)],
@@ -125,8 +124,8 @@ def kept_frames(trajectory: StrikeTrajectory) -> NDArray[np.intp]:
     count = len(trajectory.times)
     kept = np.isin(trajectory.times, [event.time for event in trajectory.events])
     kept[[0, -1]] = True
-    changes = np.flatnonzero(trajectory.modes[1:] != trajectory.modes[:-1])
-    kept[changes] = kept[changes + 1] = True
+    starts = trajectory.mode_starts
+    kept[starts] = kept[starts - 1] = True
     spare = max(MOST_FRAMES - int(kept.sum()), 0)
     kept[np.linspace(0, count - 1, min(spare, count)).round().astype(int)] = True
     return np.flatnonzero(kept)
@@ -141,12 +140,13 @@ def mode_spans(trajectory: StrikeTrajectory) -> list[Span]:
     Returns:
         A span for each stretch of one mode.
     """
-    modes = trajectory.modes
-    starts = [0, *(np.flatnonzero(modes[1:] != modes[:-1]) + 1).tolist()]
+    starts = trajectory.mode_starts
     paints = {str(mode): paint for mode, paint in MODE_PAINTS.items()}
     return [
-        Span(float(trajectory.times[i]), mode.upper(), paints[mode].css)
-        for i, mode in ((i, str(modes[i])) for i in starts)
+        Span(float(time), str(mode).upper(), paints[mode].css)
+        for time, mode in zip(
+            trajectory.times[starts], trajectory.modes[starts], strict=True
+        )
     ]
 
 
@@ -284,13 +284,13 @@ def _direction(trajectory: StrikeTrajectory) -> NDArray[np.float64]:
     return wrap_direction(axis, outward / np.linalg.norm(outward))
 
 
-def _draw_ways(
+def _draw_paths(
     canvas: Canvas, trajectory: StrikeTrajectory, frames: NDArray[np.intp]
 ) -> None:
-    """Draw the way of each finger's tip."""
+    """Draw the path of each talon."""
     for index, (name, part) in enumerate(trajectory.foot.finger_slices.items()):
-        tips = trajectory.bones[frames, part.stop - 1, 1]
-        canvas.thread(f"ways/{name}", tips, finger_paint(index).tinted(FADED))
+        talons = trajectory.bones[frames, part.stop - 1, 1]
+        canvas.thread(f"ways/{name}", talons, finger_paint(index).tinted(FADED))
 
 
 def _draw_contacts(

@@ -45,7 +45,7 @@ class Sweep:
         """The phalanx's index among all."""
         return int(self.foot.finger_slices[self.finger.name].start)
 
-    def gaps(self, values: Floats) -> Floats:
+    def clearances(self, values: Floats) -> Floats:
         """Clearance of the phalanx.
 
         Args:
@@ -56,37 +56,39 @@ class Sweep:
         """
         return np.asarray(self._near(values)[0].distance.min(axis=1))
 
-    def base_gap(self) -> float:
+    def base_clearance(self) -> float:
         """Clearance of the skin around the base [m]."""
         tip = POINT * self.foot.size * self.pose[:3, 0]
         bone = self.pose[:3, 3] + np.stack([np.zeros(3), tip])
         return float(self._clearance(bone[None]).distance[0])
 
-    def contacts(self, near: float) -> tuple[Interval, ...]:
+    def contacts(self, tolerance: float) -> tuple[Interval, ...]:
         """Values of v in [0, 1] at which the phalanx meets the solid.
 
         A range of v is clear where every piece stays off, and touching where one
         cannot leave or where contacts enclose it; else it is halved.
 
         Args:
-            near: Clearance that counts as contact [m].
+            tolerance: Clearance that counts as contact [m].
 
         Returns:
-            Disjoint intervals, ascending: the clearance is at most twice `near` in
-            them, and more than `near` outside.
+            Disjoint intervals, ascending: the clearance is at most twice the tolerance
+            in them, and more than the tolerance outside.
         """
-        if self.base_gap() <= near:
+        if self.base_clearance() <= tolerance:
             return ((0.0, 1.0),)
         ends = np.array([0.0, 1.0])
-        met = ends[self.gaps(ends) <= 2 * near]
+        met = ends[self.clearances(ends) <= 2 * tolerance]
         low, high = ends[:1], ends[1:]
         held: list[Interval] = []
         while len(low):
             middle = (low + high) / 2
-            gaps, least, most = self._bounds(middle, self.foot.omega * (high - low) / 2)
-            met = np.union1d(met, middle[gaps <= 2 * near])
-            clear = least > near
-            touching = (most <= 2 * near) | self._enclosed(low, high, met)
+            found, least, most = self._bounds(
+                middle, self.foot.omega * (high - low) / 2
+            )
+            met = np.union1d(met, middle[found <= 2 * tolerance])
+            clear = least > tolerance
+            touching = (most <= 2 * tolerance) | self._enclosed(low, high, met)
             held += zip(low[touching].tolist(), high[touching].tolist(), strict=True)
             left = ~(clear | touching)
             low, middle, high = low[left], middle[left], high[left]

@@ -105,6 +105,15 @@ class TendonFoot:
     """A foot with tendon locking, near an obstacle.
 
     Attributes:
+        foot: The foot.
+        obstacle: What it may meet.
+        closing: How its toes close.
+        contact: What counts as contact.
+        flow: Its motion while it is free.
+        tolerance: Clearance that is contact [m].
+        clear: Clearance with which a phalanx has come clear after a release [m].
+        senses: Which phalanges engage the tendon, shape (P,).
+        armed: Which of them have come clear since the last release, shape (P,).
         mode: The mode that it is in.
         time: The time it has come to [s].
         phases: What it went through.
@@ -259,7 +268,7 @@ class TendonFoot:
         return self.near(self.flow.stances(np.array([time])).bones[0]).distance
 
     def _look(self, floors: Floats, speeds: Floats) -> Look:
-        """Clearances of the free foot at an instant, and a step that misses nothing."""
+        """Clearances of the free foot, and a step in which none falls to its floor."""
 
         def look(time: float) -> tuple[Floats, float]:
             distances = self._distances(time)

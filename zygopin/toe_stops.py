@@ -27,8 +27,8 @@ CLOSE = 0.01
 """Clearance over a phalanx's length below which it is looked at piece by piece."""
 
 CUTS = np.append(0.0, 4.0 ** np.arange(-12.0, 1.0))
-"""Where it is cut: a phalanx that touches at its joint moves little there, and may
-turn all the way while it touches."""
+"""Where it is cut, over its length: a phalanx that touches at its joint moves little
+there, and may turn all the way while it touches. Fourfold steps, down to 6e-8."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +57,13 @@ class ToeStops:
 
     Attributes:
         stance: Where the toes start.
+        near: The clearance to the obstacle.
+        pairs: Phalanges of different fingers that can meet, M of them.
+        driven: Whether joint j turns phalanx k, shape (P, P).
+        tolerance: Deepest that a toe may enter anything anew [m].
+        depth: How far below its level a clearance may fall before a joint stops [m].
+        contact: Clearances that count as a meeting, to the obstacle and between pairs
+            of toes [m], shape (P + M,).
         stopped_at: Progress wⱼ of each joint, infinite until it stops, shape (P,).
         stops: What was met, in order.
     """
@@ -107,7 +114,7 @@ class ToeStops:
             if not met.any():
                 return
             self.stop(progress, met, distances)
-            # Who goes on beyond a phalanx that stopped may still touch at its joint.
+            # A phalanx beyond a joint that stopped goes on, and may touch at its joint.
             level = np.where(met, distances - self.depth, level)
 
     def motion(self, progress: float) -> ToeMotion:

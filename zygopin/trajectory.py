@@ -8,6 +8,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from zygopin import checks
+from zygopin.closing import Reading
 from zygopin.foot import Foot
 from zygopin.grip import Grip
 from zygopin.obstacle import Obstacle
@@ -41,6 +43,9 @@ class StrikeEvent:
     point: NDArray[np.float64] | None = None
     clearance: float | None = None
 
+    def __post_init__(self) -> None:
+        checks.freeze(self)
+
 
 @dataclass(frozen=True, eq=False)
 class StrikeTrajectory:
@@ -66,7 +71,7 @@ class StrikeTrajectory:
 
     foot: Foot
     obstacle: Obstacle
-    reading: Literal["paper", "contact"]
+    reading: Reading
     tolerance: float
     times: NDArray[np.float64]
     modes: NDArray[np.str_]
@@ -77,3 +82,12 @@ class StrikeTrajectory:
     clearance: NDArray[np.float64]
     events: tuple[StrikeEvent, ...]
     grip: Grip
+
+    def __post_init__(self) -> None:
+        checks.freeze(self)
+
+    @property
+    def mode_starts(self) -> NDArray[np.intp]:
+        """Indices of the instants at which a mode begins, ascending from 0."""
+        changes = np.flatnonzero(self.modes[1:] != self.modes[:-1]) + 1
+        return np.append(0, changes)
