@@ -12,6 +12,7 @@ PACKAGE = Path(zygopin.__file__).parent
 LAYERS = (
     "errors",
     "checks",
+    "rotations",
     "control_system",
     "ifs",
     "word_answer",

@@ -22,7 +22,7 @@ from zygopin.motion import Motion
 from zygopin.obstacle import Box, Capsule, ConvexMesh
 from zygopin.obstacle_drawing import PREY, obstacle_extent
 from zygopin.strike import simulate_strike
-from zygopin.strike_caption import outcome_words, slowdown, toes_in_contact
+from zygopin.strike_caption import outcome_words, slowdown
 from zygopin.strike_scene import (
     MODE_PAINTS,
     MOST_FRAMES,
@@ -324,9 +324,10 @@ def test_a_strike_that_meets_nothing_is_shown_too(strike, tmp_path):
         events=(),
         modes=np.full_like(strike.modes, "free"),
         clearance=np.full_like(strike.clearance, 0.1),
+        grip=dataclasses.replace(strike.grip, fingers=()),
     )
     text = export_strike(free, tmp_path / "a.html").read_text("utf-8")
-    assert "Free at the end: no toe meets the ball" in text
+    assert "Free at the end: no toe touches the ball" in text
     assert "nothing was met" in text
     assert len(scene_of(tmp_path / "a.html")["motion"]["spans"]) == 1
 
@@ -340,16 +341,34 @@ def test_a_record_of_one_instant_is_shown_too(strike, tmp_path):
     assert scene_of(page)["motion"]["times"] == [END]
 
 
-def test_toes_in_contact_are_counted_by_finger(strike):
-    least = np.full_like(strike.clearance, 0.001)
-    least[-1, [0, 1, 3]] = 0.0
-    outside = dataclasses.replace(strike.grip, penetrating=np.zeros(14, bool))
-    touched = dataclasses.replace(strike, clearance=least, grip=outside)
-    assert toes_in_contact(touched) == 2
-    words = "Locked at the end: 2 of 4 toes in contact with the ball"
-    assert outcome_words(touched) == words
-    sunk = dataclasses.replace(touched, grip=strike.grip)
-    assert outcome_words(sunk) == f"{words}, some inside it"
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({}, "2 of 4 toes touch the ball; grasping; feasible"),
+        ({"scalar_product": 0.5}, "2 of 4 toes touch the ball; not grasping; feasible"),
+        ({"fingers": ()}, "no toe touches the ball; feasible"),
+        (
+            {"feasible": False},
+            "2 of 4 toes touch the ball; grasping; not feasible: toes cross",
+        ),
+        (
+            {"feasible": False, "penetrating": np.ones(14, bool)},
+            "2 of 4 toes touch the ball; grasping; "
+            "not feasible: a toe is inside the ball",
+        ),
+    ],
+)
+def test_the_outcome_is_the_verdict_on_the_grip(strike, changes, words):
+    values = {
+        "fingers": ("finger1", "finger2"),
+        "scalar_product": -0.5,
+        "feasible": True,
+        "penetrating": np.zeros(14, bool),
+        **changes,
+    }
+    grip = dataclasses.replace(strike.grip, **values)
+    ended = dataclasses.replace(strike, grip=grip)
+    assert outcome_words(ended) == f"Locked at the end: {words}"
 
 
 @pytest.mark.parametrize(

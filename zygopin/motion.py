@@ -16,15 +16,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from zygopin import checks
 from zygopin.errors import ParameterError
+from zygopin.rotations import ORTHONORMAL, angles_between, as_rotations, turns_between
 
 PROBES = 513
 """Instants at which a callable's values and rates are looked at."""
 
 RATE_SLACK = 1e-6
 """Relative excess over its bound that a callable's rate may have: rounding."""
-
-ORTHONORMAL = 1e-6
-"""How far a pose's entries may be from a true one's: written with six digits."""
 
 RATE_ROUNDING = 1e-12, 1e-9
 """Excess over its bound that rounding may give to what hardly changes: absolute [1/s],
@@ -173,8 +171,8 @@ class Motion:
         turn: Callable[[Floats], Floats] = _level
         if rotations is not None:
             frames = _as_samples("rotations", rotations, instants, (3, 3))
-            _check_rotations("rotations", frames)
-            turn, angles = _turns(instants, frames), _angles(frames)
+            frames = as_rotations("rotations", frames)
+            turn, angles = turns_between(instants, frames), angles_between(frames)
         return cls(
             lambda moments: _poses(line(moments), turn(moments)),
             instants,
@@ -212,7 +210,7 @@ class Motion:
         _check_poses("motion", poses)
         bounds = [_as_bound("speed", speed, ()), _as_bound("turn_rate", turn_rate, ())]
         moves = np.linalg.norm(np.diff(poses[:, :3, 3], axis=0), axis=1)
-        angles = _angles(poses[:, :3, :3])
+        angles = angles_between(poses[:, :3, :3])
         for name, steps, bound in zip(
             ("speed", "turn_rate"), (moves, angles), bounds, strict=True
         ):
@@ -373,47 +371,15 @@ def _check_poses(name: str, matrices: Floats) -> None:
     remedy = "give T_world_base: rotation, position at the right, last row 0, 0, 0, 1"
     if matrices.shape[1:] != (4, 4):
         raise ParameterError(f"{name}.shape", matrices.shape[1:], "(4, 4)", remedy)
-    _check_rotations(name, matrices[:, :3, :3])
+    as_rotations(name, matrices[:, :3, :3])
     last = matrices[:, 3]
     good = np.abs(last - (0, 0, 0, 1)) <= ORTHONORMAL
     checks.require(f"last row of {name}", last, good, "(0, 0, 0, 1)", remedy)
 
 
-def _check_rotations(name: str, matrices: Floats) -> None:
-    """Matrices are rotations, right-handed, shape (n, 3, 3)."""
-    inside = np.clip(matrices, -2, 2)  # so that products do not overflow
-    products = inside @ inside.swapaxes(-1, -2)
-    off = np.abs(products - np.eye(3)).max(axis=(-2, -1))
-    allowed, remedy = f"within {ORTHONORMAL:g} of orthonormal", "give rotations"
-    checks.require(f"error of {name}", off, off <= ORTHONORMAL, allowed, remedy)
-    sign, remedy = np.linalg.det(inside), "swap two columns"
-    checks.require(f"determinant of {name}", sign, sign > 0, "1", remedy)
-
-
 def _level(moments: Floats) -> Floats:
     """The world's axes at all instants, shape (n, 3, 3)."""
     return _repeated(np.eye(3), len(moments))
-
-
-def _turns(times: Floats, matrices: Floats) -> Callable[[Floats], Floats]:
-    """Turns of constant speed from one rotation to the next."""
-    from scipy.spatial.transform import Rotation, Slerp  # only turns need SciPy
-
-    slerp = Slerp(times, Rotation.from_matrix(matrices))
-    return lambda moments: np.asarray(slerp(moments).as_matrix())
-
-
-def _angles(matrices: Floats) -> Floats:
-    """Angles between each rotation and the next [rad], shape (n − 1,)."""
-    steps = matrices[:-1].swapaxes(-1, -2) @ matrices[1:]
-    # From both sine and cosine: exact for small turns as for half ones.
-    sines = np.stack([steps[:, i, j] - steps[:, j, i] for i, j in _ASIDE], axis=-1)
-    cosines = np.trace(steps, axis1=-2, axis2=-1) - 1
-    return np.asarray(np.arctan2(np.linalg.norm(sines, axis=-1), cosines))
-
-
-_ASIDE = ((2, 1), (0, 2), (1, 0))
-"""Entries of a rotation whose differences are twice its axis times the sine."""
 
 
 def _poses(positions: Floats, rotations: Floats) -> Floats:

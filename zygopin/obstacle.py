@@ -10,9 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from zygopin import checks
 from zygopin.branch import Branch
 from zygopin.errors import ParameterError
-
-ORTHONORMAL = 1e-9
-"""How far the products of a rotation's columns may be from those of unit axes."""
+from zygopin.rotations import as_rotations
 
 CONVEX = 1e-9
 """How far a vertex may lie outside a face, over the mesh's size: rounding in files."""
@@ -204,18 +202,7 @@ def _rotation(name: str, value: ArrayLike) -> NDArray[np.float64]:
     """The rotation nearest to a matrix that is one but for rounding."""
     given = checks.array(name, value, last=3)
     checks.shaped(name, given, (3, 3))
-    remedy = "give a rotation matrix, such as Rotation.as_matrix() of SciPy"
-    near = np.abs(given) <= 1 + ORTHONORMAL  # so that products do not overflow
-    checks.require(name, given, near, "in [-1, 1]", remedy)
-    off = float(np.abs(given.T @ given - np.eye(3)).max())
-    if off > ORTHONORMAL:
-        allowed = f"within {ORTHONORMAL:g} of orthonormal"
-        raise ParameterError(f"{name}'s error", off, allowed, remedy)
-    left, _, right = np.linalg.svd(given)
-    turn = left @ right
-    if np.linalg.det(turn) < 0:
-        raise ParameterError(f"{name}'s determinant", -1.0, "1", "swap two columns")
-    return np.asarray(turn)
+    return as_rotations(name, given)
 
 
 def _middle_and_size(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:

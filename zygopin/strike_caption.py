@@ -40,19 +40,6 @@ HINT = (
 )
 
 
-def toes_in_contact(trajectory: StrikeTrajectory) -> int:
-    """How many fingers meet the obstacle at the end.
-
-    Args:
-        trajectory: The strike.
-
-    Returns:
-        Fingers with a phalanx whose clearance is at most the tolerance.
-    """
-    met = trajectory.clearance[-1] <= trajectory.tolerance
-    return sum(bool(met[part].any()) for part in trajectory.foot.finger_slices.values())
-
-
 def outcome_words(trajectory: StrikeTrajectory) -> str:
     """How a strike ended, in one line.
 
@@ -62,12 +49,21 @@ def outcome_words(trajectory: StrikeTrajectory) -> str:
     Returns:
         Plain text.
     """
-    mode = str(trajectory.modes[-1]).capitalize()
-    toes, count = toes_in_contact(trajectory), len(trajectory.foot.fingers)
-    noun = obstacle_noun(trajectory.obstacle)
-    held = f"{toes} of {count} toes in contact with" if toes else "no toe meets"
-    inside = ", some inside it" if np.any(trajectory.grip.penetrating) else ""
-    return f"{mode} at the end: {held} the {noun}{inside}"
+    grip, noun = trajectory.grip, obstacle_noun(trajectory.obstacle)
+    mode, count = str(trajectory.modes[-1]).capitalize(), len(trajectory.foot.fingers)
+    held = (
+        f"{len(grip.fingers)} of {count} toes touch"
+        if grip.fingers
+        else "no toe touches"
+    )
+    words = [f"{mode} at the end: {held} the {noun}"]
+    if grip.fingers:
+        words.append("grasping" if grip.grasping else "not grasping")
+    if grip.penetrating.any():
+        words.append(f"not feasible: a toe is inside the {noun}")
+    else:
+        words.append("feasible" if grip.feasible else "not feasible: toes cross")
+    return "; ".join(words)
 
 
 def strike_caption(

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from zygopin import checks
 from zygopin.archive import write_archive
 from zygopin.errors import ParameterError
 from zygopin.files import write_text
@@ -81,6 +82,7 @@ def save_strike(trajectory: StrikeTrajectory, path: Path | str) -> Path:
         ParameterError: The file's name ends otherwise.
         FileError: The file cannot be written.
     """
+    checks.instance("trajectory", trajectory, StrikeTrajectory)
     document, suffix = strike_document(trajectory), Path(path).suffix.lower()
     series = {name: getattr(trajectory, name) for name in SERIES}
     if suffix == ".npz":

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from zygopin import checks
 from zygopin.drawing import finger_paint
 from zygopin.figures import (
     INK,
@@ -66,6 +67,7 @@ def plot_strike(trajectory: StrikeTrajectory, path: Path | str) -> Path:
     Raises:
         FileError: The file cannot be written.
     """
+    checks.instance("trajectory", trajectory, StrikeTrajectory)
     foot, spans = trajectory.foot, _spans(trajectory)
     rows = 1 + len(foot.fingers)
     figure = new_figure(5.4 * len(spans), 3.4 + 1.05 * len(foot.fingers))

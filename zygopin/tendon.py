@@ -142,6 +142,7 @@ class TendonFoot:
             ParameterError: A value is out of range, or the obstacle already holds
                 the base.
         """
+        checks.instance("foot", foot, Foot)
         self.foot, self.obstacle = foot, as_obstacle(obstacle)
         self.closing, self.contact = closing or Closing(), contact or Contact()
         checks.instance("closing", self.closing, Closing)
