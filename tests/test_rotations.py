@@ -19,7 +19,7 @@ def test_what_was_written_with_six_digits_becomes_a_rotation():
     found = as_rotations("turns", np.round(true, 7))
     np.testing.assert_allclose(found, true, atol=2e-7)
     np.testing.assert_allclose(
-        found @ found.swapaxes(-1, -2), [np.eye(3)] * 2, atol=1e-15
+        found @ found.swapaxes(-1, -2), [np.eye(3)] * 2, atol=1e-14
     )
 
 
@@ -35,7 +35,7 @@ def test_a_turn_has_constant_speed():
     turn = turns_between(np.array([0.0, 2.0]), np.stack([np.eye(3), QUARTER]))
     (middle,) = turn(np.array([0.5]))
     expected = Rotation.from_euler("z", 22.5, degrees=True).as_matrix()
-    np.testing.assert_allclose(middle, expected, atol=1e-15)
+    np.testing.assert_allclose(middle, expected, atol=1e-14)
 
 
 @pytest.mark.parametrize(
