@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from strategies import reals
 
-from zygopin.branch import Branch, branch_axis, yaw_and_pitch
+from zygopin.branch import Branch, branch_axis, check_base, yaw_and_pitch
 from zygopin.errors import ParameterError
 
 AXES = hnp.arrays(np.float64, 3, elements=reals(-1, 1)).filter(
@@ -163,29 +163,39 @@ def test_what_is_no_branch_is_one_line(values, message):
     assert "\n" not in str(caught.value)
 
 
-def test_a_branch_that_holds_the_base_is_refused():
+def test_a_branch_that_holds_the_base_is_refused_for_a_foot_at_the_origin():
     with pytest.raises(
         ParameterError, match=r"axis = 0\.5 is not at least .* move the centre away"
     ):
-        Branch(1, (0, 0, -0.5))
+        check_base(Branch(1, (0, 0, -0.5)))
     with pytest.raises(ParameterError, match=r"axis\[1\] = 1\.0"):
-        Branch([1, 2], (0, 0, -1))
+        check_base(Branch([1, 2], (0, 0, -1)))
     with pytest.raises(ParameterError, match="holds the base"):
-        Branch(1, (0, 0, -2)).moved_to((0, 0, 0))
+        check_base(Branch(1, (0, 0, -2)).moved_to((0, 0, 0)))
     with pytest.raises(ParameterError, match="holds the base"):
-        Branch(1, (0, 5, -0.5), length=11)
+        check_base(Branch(1, (0, 5, -0.5), length=11))
+
+
+def test_a_branch_without_a_foot_may_lie_at_the_origin():
+    branch = Branch(0.01, (0, 0, 0))
+    assert branch.base_distance() == 0.0
+    assert branch.moved_to((0, 0, 0.005)).base_distance() == 0.005
 
 
 @given(reals(1e-6, 1e6), reals(-3, 3))
 def test_the_base_may_sit_on_the_bark(radius, pitch):
     # The paper's own branch: axis at x = 0, z = -r; pitched, the same distance away.
-    assert Branch(radius, (0, 0, -radius)).base_distance() == radius
+    level = Branch(radius, (0, 0, -radius))
+    assert level.base_distance() == radius
+    check_base(level)
     across = (0, radius * math.sin(pitch), -radius * math.cos(pitch))
-    Branch(radius, across, branch_axis(0, pitch))
+    check_base(Branch(radius, across, branch_axis(0, pitch)))
 
 
 def test_the_base_may_be_within_the_radius_beyond_an_end():
-    assert Branch(1, (0, 5, -0.5), length=9).base_distance() == 0.5
+    stump = Branch(1, (0, 5, -0.5), length=9)
+    assert stump.base_distance() == 0.5
+    check_base(stump)
 
 
 def test_a_branch_moves_with_everything_else_kept():

@@ -13,26 +13,10 @@ import pytest
 from test_cli import run as run_alone
 
 from zygopin import Foot, ParameterError, finger_reach, forward_kinematics, to_urdf
-from zygopin.cli import main
 from zygopin.reach_output import write_arrays
 
 FIGURE = ("reach", "--preset", "paper", "--finger", "3", "--omega-deg", "15,30")
 SMALL = (*FIGURE, "--levels", "5")
-
-
-@pytest.fixture
-def run(capsys, monkeypatch):
-    """Run the command line in this process, which has loaded the libraries."""
-    monkeypatch.setenv("COLUMNS", "80")
-
-    def run_here(*arguments):
-        with pytest.raises(SystemExit) as ended:
-            main(list(arguments))
-        spoken = capsys.readouterr()
-        status = int(ended.value.code)
-        return subprocess.CompletedProcess(arguments, status, spoken.out, spoken.err)
-
-    return run_here
 
 
 def test_validate_passes_and_says_what_it_took():

@@ -179,6 +179,19 @@ def test_degenerate_bones_have_an_answer(branch):
     assert np.linalg.norm(other.normal) == pytest.approx(1)
 
 
+@pytest.mark.parametrize("length", [1.0, 1e-2, 1e-4])
+@pytest.mark.parametrize("height", [1e-6, 1e-9, 0.0, -1e-9, -1e-6])
+def test_a_bone_that_touches_an_end_is_neither_deep_nor_far(length, height):
+    stump = Branch(0.5, (0, 0, -length / 2), axis=(0, 0, 1), length=length)
+    bones = np.array([[(0.1, -0.2, 0.0), (0.15, -0.1, 0.3)]]) + np.array((0, 0, height))
+    exact, other = (
+        engine.branch_clearance(bones, np.zeros(1), stump)
+        for engine in (clearance, collision)
+    )
+    assert exact.distance == pytest.approx(height, abs=1e-15)
+    assert other.distance == pytest.approx(height, abs=1e-14)
+
+
 def test_fcl_objects_may_touch_to_rounding():
     foot = Foot(fingers=(Finger("toe", 1, 0.0),))
     bones = forward_kinematics(foot, np.zeros(1))

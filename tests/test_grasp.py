@@ -456,6 +456,17 @@ def test_a_branch_that_rounding_or_tolerance_would_judge_is_refused(branch, mess
         check_grasp(PARROT, np.zeros(14), branch)
 
 
+@pytest.mark.parametrize("engine", ["exact", "fcl"])
+def test_a_branch_that_holds_the_base_is_refused(engine):
+    one, batch = Branch(1, (0, 0, -0.5)), Branch([1, 2], (0, 0, -1))
+    with pytest.raises(
+        ParameterError, match=r"axis = 0\.5 is not at least .* move the centre away"
+    ):
+        check_grasp(PARROT, np.zeros(14), one, engine=engine)
+    with pytest.raises(ParameterError, match=r"axis\[1\] = 1\.0"):
+        check_grasp(PARROT, np.zeros(14), batch, engine=engine)
+
+
 def test_an_engine_of_another_foot_is_refused():
     engine = make_engine("exact", Foot.preset("owl"))
     with pytest.raises(ParameterError, match="make the engine for this foot"):

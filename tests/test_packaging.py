@@ -34,7 +34,8 @@ def test_the_wheel_carries_what_the_package_reads(wheel_names):
         for path in (ROOT / "urdf").rglob("*")
         if path.is_file()
     }
-    shipped |= {f"zygopin/assets/page.{kind}" for kind in ("html", "css", "js")}
+    assets = ("page.html", "page.css", "page.js", "player.css", "player.js")
+    shipped |= {f"zygopin/assets/{name}" for name in assets}
     assert wheel_names >= shipped | {"zygopin/py.typed", "zygopin/__init__.pyi"}
 
 

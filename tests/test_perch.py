@@ -264,6 +264,12 @@ def test_a_batch_of_branches_is_refused(shape):
         plan_perch(PARROT, batch)
 
 
+@pytest.mark.parametrize("find_height", [False, True])
+def test_a_branch_that_holds_the_base_is_refused(find_height):
+    with pytest.raises(ParameterError, match="the branch holds the base inside it"):
+        plan_perch(PARROT, Branch(0.008, (0, 0, -0.003)), find_height=find_height)
+
+
 @pytest.mark.parametrize("levels", [1, 34, 2.5, None])
 def test_levels_out_of_range_are_refused(levels):
     with pytest.raises(ParameterError, match=r"levels = .* an integer from 2 to 33"):

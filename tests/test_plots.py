@@ -14,13 +14,8 @@ from PIL import Image
 
 from zygopin import Foot
 from zygopin.errors import FileError, ParameterError
-from zygopin.plots import (
-    _density,
-    plot_box_counts,
-    plot_convergence,
-    plot_reach,
-    unit_of,
-)
+from zygopin.figures import unit_of
+from zygopin.plots import _density, plot_box_counts, plot_convergence, plot_reach
 from zygopin.reach import finger_reach
 from zygopin.reach_scene import MOST_DOTS, export_reach_scene, junction_clouds
 

@@ -1,11 +1,14 @@
 """Types of the names that `zygopin` loads lazily."""
 
+from zygopin.attack import Attack as Attack
 from zygopin.branch import Branch as Branch
 from zygopin.branch import branch_axis as branch_axis
+from zygopin.closing import Closing as Closing
 from zygopin.control_system import ControlSystem as ControlSystem
 from zygopin.description import to_srdf as to_srdf
 from zygopin.description import to_urdf as to_urdf
 from zygopin.description import write_description as write_description
+from zygopin.engagement_plots import plot_engagement as plot_engagement
 from zygopin.engine import Engine as Engine
 from zygopin.engine import make_engine as make_engine
 from zygopin.errors import DescriptionError as DescriptionError
@@ -16,10 +19,12 @@ from zygopin.errors import UnknownNameError as UnknownNameError
 from zygopin.errors import ZygopinError as ZygopinError
 from zygopin.finger import Finger as Finger
 from zygopin.finger import zygodactyl_fingers as zygodactyl_fingers
+from zygopin.flight import Flight as Flight
 from zygopin.foot import Foot as Foot
 from zygopin.grasp import Criteria as Criteria
 from zygopin.grasp import GraspReport as GraspReport
 from zygopin.grasp import check_grasp as check_grasp
+from zygopin.grip import Grip as Grip
 from zygopin.hausdorff import HausdorffDistance as HausdorffDistance
 from zygopin.hausdorff import directed_distance as directed_distance
 from zygopin.hausdorff import hausdorff_distance as hausdorff_distance
@@ -32,6 +37,12 @@ from zygopin.inverse import find_word as find_word
 from zygopin.inverse import nearest_reachable as nearest_reachable
 from zygopin.kinematics import forward_kinematics as forward_kinematics
 from zygopin.model import FootModel as FootModel
+from zygopin.motion import Law as Law
+from zygopin.motion import Motion as Motion
+from zygopin.obstacle import Box as Box
+from zygopin.obstacle import Capsule as Capsule
+from zygopin.obstacle import ConvexMesh as ConvexMesh
+from zygopin.obstacle import Sphere as Sphere
 from zygopin.paths import PACKAGE_PATH as PACKAGE_PATH
 from zygopin.paths import PRESETS_PATH as PRESETS_PATH
 from zygopin.paths import SRDF_PATH as SRDF_PATH
@@ -45,7 +56,25 @@ from zygopin.reach import finger_reach as finger_reach
 from zygopin.reach_inverse import InverseReach as InverseReach
 from zygopin.reach_inverse import inverse_reach as inverse_reach
 from zygopin.reach_scene import export_reach_scene as export_reach_scene
+from zygopin.remark import ContactKept as ContactKept
+from zygopin.remark import Counterexample as Counterexample
+from zygopin.remark import contact_kept as contact_kept
+from zygopin.remark import counterexample as counterexample
+from zygopin.remark_plots import plot_remark as plot_remark
 from zygopin.scene import export_scene as export_scene
+from zygopin.solid_clearance import obstacle_clearance as obstacle_clearance
+from zygopin.spread import SpreadStudy as SpreadStudy
+from zygopin.spread import spread_study as spread_study
+from zygopin.spread import strike_area as strike_area
+from zygopin.spread import talon_hull_area as talon_hull_area
+from zygopin.strike import simulate_strike as simulate_strike
+from zygopin.strike_output import save_strike as save_strike
+from zygopin.strike_plots import plot_strike as plot_strike
+from zygopin.strike_scene import export_strike as export_strike
+from zygopin.tendon import Contact as Contact
+from zygopin.tendon import TendonFoot as TendonFoot
+from zygopin.trajectory import StrikeEvent as StrikeEvent
+from zygopin.trajectory import StrikeTrajectory as StrikeTrajectory
 from zygopin.validation import ReachValidation as ReachValidation
 from zygopin.validation import ValidationRow as ValidationRow
 from zygopin.validation import validate_foot as validate_foot

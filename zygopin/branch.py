@@ -13,9 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from zygopin import checks
 
-SMALLEST, LARGEST = 1e-12, 1e12
-"""Lengths that a branch may have [m]: their squares neither vanish nor overflow."""
-
 BASE_SLACK = 1e-9
 """How far the base may lie inside, relative to the radius: rounding of a base that
 sits on the bark."""
@@ -82,18 +79,15 @@ class Branch:
         axis: ArrayLike = (0.0, 1.0, 0.0),
         length: ArrayLike | None = None,
     ) -> None:
-        centre = checks.array("branch.centre", centre, last=3)
-        near = np.abs(centre) <= LARGEST
-        remedy = "give metres, in the foot's frame"
-        checks.require("branch.centre", centre, near, f"within {LARGEST:g} m", remedy)
-        self._set("radius", _positive("branch.radius", radius))
-        self._set("centre", _read_only(centre))
-        self._set("axis", _read_only(_unit(checks.array("branch.axis", axis, last=3))))
+        self._set("radius", _plain(checks.lengths("branch.radius", radius)))
+        self._set("centre", checks.places("branch.centre", centre))
+        self._set(
+            "axis", checks.read_only(_unit(checks.array("branch.axis", axis, last=3)))
+        )
         if length is not None:
-            length = _positive("branch.length", length)
+            length = _plain(checks.lengths("branch.length", length))
         self._set("length", length)
         checks.common_batch("radius, centre, axis and length", *self._shapes())
-        _check_base(self)
 
     def _set(self, field: str, value: object) -> None:
         object.__setattr__(self, field, value)
@@ -179,8 +173,8 @@ class Branch:
         """Every field changed alike; entries of a valid batch need no new check."""
         new = object.__new__(Branch)
         new._set("radius", _plain(change(np.asarray(self.radius), ())))
-        new._set("centre", _read_only(change(self.centre, (3,))))
-        new._set("axis", _read_only(change(self.axis, (3,))))
+        new._set("centre", checks.read_only(change(self.centre, (3,))))
+        new._set("axis", checks.read_only(change(self.axis, (3,))))
         length = self.length
         if length is not None:
             length = _plain(change(np.asarray(length), ()))
@@ -197,19 +191,9 @@ class Branch:
             The new branch.
 
         Raises:
-            ParameterError: The centre is not finite, or puts the base inside.
+            ParameterError: The centre is not finite.
         """
         return Branch(self.radius, centre, self.axis, self.length)
-
-
-def _positive(name: str, value: ArrayLike) -> float | NDArray[np.float64]:
-    """A positive float, or a read-only array of them."""
-    result = checks.array(name, value)
-    remedy = "give metres, such as 0.008 for 8 mm"
-    good = (result >= SMALLEST) & (result <= LARGEST)
-    allowed = f"a positive number, from {SMALLEST:g} to {LARGEST:g} m"
-    checks.require(name, result, good, allowed, remedy)
-    return _plain(result)
 
 
 def _unit(axis: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -223,17 +207,18 @@ def _unit(axis: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _plain(values: NDArray[np.float64]) -> float | NDArray[np.float64]:
     """The array, read-only, or the number where there is only one."""
-    return float(values) if np.ndim(values) == 0 else _read_only(values)
+    return float(values) if np.ndim(values) == 0 else checks.read_only(values)
 
 
-def _read_only(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The array, read-only."""
-    values.flags.writeable = False
-    return values
+def check_base(branch: Branch) -> None:
+    """The base of a foot that stands at the origin lies outside the solid.
 
+    Args:
+        branch: The branch, or a batch, in the foot's frame.
 
-def _check_base(branch: Branch) -> None:
-    """The base, the origin of the foot, lies outside the solid."""
+    Raises:
+        ParameterError: The branch holds the origin inside it.
+    """
     along = np.abs(np.einsum("...i,...i->...", branch.centre, branch.axis))
     distance, along, half, radius = np.broadcast_arrays(
         branch.base_distance(), along, branch.half_length, branch.radius

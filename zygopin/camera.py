@@ -120,8 +120,22 @@ def grasp_direction(branch: Branch) -> NDArray[np.float64]:
     Returns:
         Unit vector to the eye, shape (3,).
     """
-    axis = branch.axis * (1.0 if branch.axis @ _PREFERRED_END >= 0 else -1.0)
-    outward = branch.frame(_toward_base(branch))[:, 0]
+    return wrap_direction(branch.axis, branch.frame(_toward_base(branch))[:, 0])
+
+
+def wrap_direction(
+    axis: NDArray[np.float64], outward: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """The direction from which fingers that wrap around an axis are best seen.
+
+    Args:
+        axis: Unit vector, either way along the axis, shape (3,).
+        outward: Unit vector across it, toward the foot's base, shape (3,).
+
+    Returns:
+        Unit vector to the eye, shape (3,).
+    """
+    axis = axis * (1.0 if axis @ _PREFERRED_END >= 0 else -1.0)
     eye = AHEAD * axis + ABOVE * outward + ASIDE * np.cross(outward, axis)
     level = math.hypot(eye[0], eye[1])
     heading = eye[:2] / level if level > 1e-9 else np.array([0.0, -1.0])

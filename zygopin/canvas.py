@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import meshcat
 import numpy as np
-from meshcat.geometry import Geometry
+from meshcat.geometry import Box, Geometry
 from numpy.typing import ArrayLike, NDArray
 
-from zygopin.solids import Cloud, Frustum, Paint, Ring, Solid, Sphere
+from zygopin.solids import Cloud, Facets, Frustum, Paint, Ring, Solid, Sphere, Thread
 from zygopin.viewer import Recorder
 
 DECIMALS = 6
@@ -146,9 +146,46 @@ class Canvas:
             size: Width of a dot [m].
             paint: Its look; dots are opaque.
         """
-        units = np.round((points - self.origin) / self.unit, DECIMALS) + 0.0
-        dots = Cloud(path, units.astype(np.float32), self._length(size), paint)
+        dots = Cloud(path, self._units(points), self._length(size), paint)
         self._at(path).set_object(dots)
+
+    def thread(self, path: str, points: NDArray[np.float64], paint: Paint) -> None:
+        """Draw a thin line from point to point.
+
+        Args:
+            path: Its name in the scene's tree.
+            points: The points [m], shape (N, 3).
+            paint: Its look.
+        """
+        self._at(path).set_object(Thread(path, self._units(points), paint))
+
+    def block(
+        self,
+        path: str,
+        size: NDArray[np.float64],
+        T_world_block: NDArray[np.float64],
+        paint: Paint,
+    ) -> None:
+        """Draw a box.
+
+        Args:
+            path: Its name in the scene's tree.
+            size: Lengths of its edges [m], shape (3,).
+            T_world_block: Pose of its middle [m], shape (4, 4).
+            paint: Its look.
+        """
+        self._add(path, Box([self._length(edge) for edge in size]), paint)
+        self.place(path, T_world_block)
+
+    def facets(self, path: str, corners: NDArray[np.float64], paint: Paint) -> None:
+        """Draw flat triangles, each seen from the side where it is counter-clockwise.
+
+        Args:
+            path: Its name in the scene's tree.
+            corners: The triangles' corners [m], shape (T, 3, 3).
+            paint: Their look.
+        """
+        self._add(path, Facets(self._units(corners)), paint)
 
     def place(self, path: str, T_world_solid: NDArray[np.float64]) -> None:
         """Put what a path holds at a pose.
@@ -157,9 +194,31 @@ class Canvas:
             path: Its name in the scene's tree.
             T_world_solid: The pose [m], shape (4, 4).
         """
-        pose = np.array(T_world_solid)
-        pose[:3, 3] = (pose[:3, 3] - self.origin) / self.unit
-        self._transform(path, pose)
+        self._transform(path, self.in_units(T_world_solid))
+
+    def in_units(self, T_world_solid: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Poses as the viewer has them: in units, from its origin.
+
+        Args:
+            T_world_solid: Poses [m], shape (…, 4, 4).
+
+        Returns:
+            New poses, shape (…, 4, 4).
+        """
+        poses = np.array(T_world_solid)
+        poses[..., :3, 3] = (poses[..., :3, 3] - self.origin) / self.unit
+        return poses
+
+    def address(self, path: str) -> str:
+        """Where the viewer keeps what a path holds.
+
+        Args:
+            path: Its name in the scene's tree.
+
+        Returns:
+            The viewer's path.
+        """
+        return str(self._at(path).path.lower())
 
     def _frustum(
         self,
@@ -182,6 +241,11 @@ class Canvas:
 
     def _transform(self, path: str, pose: NDArray[np.float64]) -> None:
         self._at(path).set_transform(np.round(pose, DECIMALS) + 0.0)
+
+    def _units(self, points: NDArray[np.float64]) -> NDArray[np.float32]:
+        """Points in units, as the viewer reads them."""
+        units = np.round((points - self.origin) / self.unit, DECIMALS) + 0.0
+        return units.astype(np.float32)
 
     def _at(self, path: str) -> meshcat.Visualizer:
         return meshcat.Visualizer(window=self.recorder)[path]

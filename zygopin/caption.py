@@ -9,7 +9,7 @@ from html import escape
 
 import numpy as np
 
-from zygopin.branch import yaw_and_pitch
+from zygopin.branch import Branch, yaw_and_pitch
 from zygopin.foot import Foot
 from zygopin.grasp import GraspReport
 
@@ -98,8 +98,8 @@ def contact_rows(report: GraspReport) -> dict[str, str]:
         "Tangent phalanges": f"{np.sum(report.tangent)} of {report.foot.phalanx_count}",
         "Touching phalanges": str(np.sum(report.touching)),
         "Penetrating phalanges": str(np.sum(report.penetrating)),
-        "Scalar product": _ratio(report.scalar_product),
-        "… base to tip": _ratio(report.scalar_product_base_to_tip),
+        "Scalar product": ratio(report.scalar_product),
+        "… base to tip": ratio(report.scalar_product_base_to_tip),
         nearest: lengths(abs(least) if np.any(report.penetrating) else least),
         "Between fingers": lengths(float(report.finger_clearance)),
         "Tolerance": f"{report.tolerance * 1e3:.1e} mm",
@@ -135,8 +135,20 @@ def branch_rows(report: GraspReport) -> dict[str, str]:
     Returns:
         Plain texts.
     """
-    branch = report.branch
-    lengths = Lengths(report.foot.size)
+    return solid_branch_rows(report.branch, report.foot.size)
+
+
+def solid_branch_rows(branch: Branch, size: float) -> dict[str, str]:
+    """A branch's size and pose, name by value.
+
+    Args:
+        branch: One branch.
+        size: Size of the foot beside it [m].
+
+    Returns:
+        Plain texts.
+    """
+    lengths = Lengths(size)
     yaw, pitch = yaw_and_pitch(branch.axis)
     return {
         "Radius": lengths(float(branch.radius)),
@@ -174,8 +186,15 @@ class Lengths:
         return f"{_fixed(metres * 1e3, max(0, SIGNIFICANT - leading))} mm"
 
 
-def _ratio(value: float | np.ndarray) -> str:
-    """A number without unit, or that there is none."""
+def ratio(value: float | np.ndarray) -> str:
+    """A number without unit, or that there is none.
+
+    Args:
+        value: The number.
+
+    Returns:
+        Plain text.
+    """
     return _fixed(float(value), 4) if np.isfinite(value) else NONE
 
 

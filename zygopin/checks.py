@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,9 @@ from numpy.typing import ArrayLike, NDArray
 from zygopin.errors import ParameterError
 
 _NAME = re.compile(r"[a-z][a-z0-9_]*")
+
+SMALLEST, LARGEST = 1e-12, 1e12
+"""Lengths that a solid may have [m]: their squares neither vanish nor overflow."""
 
 
 def number(
@@ -103,6 +107,100 @@ def array(name: str, value: ArrayLike, *, last: int | None = None) -> NDArray[An
         raise ParameterError(f"{name}.shape", result.shape, allowed, remedy)
     require(name, result, np.isfinite(result), "finite", "give finite numbers")
     return result
+
+
+def instance(name: str, value: object, kind: type) -> None:
+    """Raise unless a value is of a class.
+
+    Args:
+        name: Name of the parameter, for the message.
+        value: What was given.
+        kind: The class.
+
+    Raises:
+        ParameterError: Names the class that it is of.
+    """
+    if not isinstance(value, kind):
+        given, wanted = type(value).__name__, kind.__name__
+        raise ParameterError(name, given, f"a {wanted}", f"give a zygopin.{wanted}")
+
+
+def lengths(name: str, value: ArrayLike, *, last: int | None = None) -> NDArray[Any]:
+    """Positive lengths, whose squares neither vanish nor overflow.
+
+    Args:
+        name: Name of the parameter, for the message.
+        value: What was given [m].
+        last: Length of the last axis; None: no demand.
+
+    Returns:
+        A new array, read-only.
+
+    Raises:
+        ParameterError: A length is not in [`SMALLEST`, `LARGEST`].
+    """
+    result = array(name, value, last=last)
+    good = (result >= SMALLEST) & (result <= LARGEST)
+    allowed = f"a positive number, from {SMALLEST:g} to {LARGEST:g} m"
+    require(name, result, good, allowed, "give metres, such as 0.008 for 8 mm")
+    return read_only(result)
+
+
+def places(name: str, value: ArrayLike) -> NDArray[Any]:
+    """Points that are not too far for their squares.
+
+    Args:
+        name: Name of the parameter, for the message.
+        value: What was given [m], shape (…, 3).
+
+    Returns:
+        A new array, read-only.
+
+    Raises:
+        ParameterError: A coordinate is beyond `LARGEST`.
+    """
+    result = array(name, value, last=3)
+    near = np.abs(result) <= LARGEST
+    remedy = "give metres, in the world frame"
+    require(name, result, near, f"within {LARGEST:g} m", remedy)
+    return read_only(result)
+
+
+def shaped(name: str, values: NDArray[Any], shape: tuple[int | None, ...]) -> None:
+    """Raise unless an array has a shape.
+
+    Args:
+        name: Name of the parameter, for the message.
+        values: The array.
+        shape: Length of each axis; None: any.
+
+    Raises:
+        ParameterError: Names the shape that it has.
+    """
+    same = len(values.shape) == len(shape)
+    if same and all(b in (a, None) for a, b in zip(values.shape, shape, strict=True)):
+        return
+    axes = ", ".join("…" if n is None else str(n) for n in shape)
+    allowed = f"({axes}{',' if len(shape) == 1 else ''})"
+    raise ParameterError(f"{name}.shape", values.shape, allowed, "give it that shape")
+
+
+def read_only(values: NDArray[Any]) -> NDArray[Any]:
+    """The array itself, made read-only."""
+    values.flags.writeable = False
+    return values
+
+
+def freeze(record: Any) -> None:  # noqa: ANN401
+    """Replace the arrays of a frozen dataclass by copies that are read-only.
+
+    Args:
+        record: The record, while it is being made.
+    """
+    for field in fields(record):
+        value = getattr(record, field.name)
+        if isinstance(value, (np.ndarray, np.generic)):
+            object.__setattr__(record, field.name, read_only(np.array(value)))
 
 
 def require(

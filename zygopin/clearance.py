@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,6 +44,20 @@ class Clearance:
     point: Floats
     normal: Floats
     lateral: NDArray[np.bool_]
+
+
+class Nearest(NamedTuple):
+    """Where bare bones are nearest to a solid.
+
+    Attributes:
+        t: Position on the bone, in [0, 1], shape (…).
+        gap: Signed distance between bone and solid [m], shape (…).
+        normal: Unit normal of the solid there, outward, shape (…, 3).
+    """
+
+    t: Floats
+    gap: Floats
+    normal: Floats
 
 
 def branch_clearance(bones: Floats, radii: Floats, branch: Branch) -> Clearance:
@@ -89,11 +104,26 @@ def segment_distance(first: Floats, second: Floats) -> Floats:
     Returns:
         Distances [m], shape (…).
     """
+    _, offset = segment_offset(first, second)
+    return norm(offset)
+
+
+def segment_offset(first: Floats, second: Floats) -> tuple[Floats, Floats]:
+    """Where the first segments are nearest to the second, and how they lie there.
+
+    Args:
+        first: Segments [m], shape (…, 2, 3).
+        second: Segments [m], shape (…, 2, 3).
+
+    Returns:
+        Positions on the first in [0, 1], shape (…), and vectors [m] from the second
+        to the first, shape (…, 3).
+    """
     p, u = first[..., 0, :], first[..., 1, :] - first[..., 0, :]
     q, v = second[..., 0, :], second[..., 1, :] - second[..., 0, :]
     w = p - q
     s, t = _nearest_parameters(dot(u, u), dot(v, v), dot(u, v), dot(u, w), dot(v, w))
-    return norm(w + s[..., None] * u - t[..., None] * v)
+    return s, w + s[..., None] * u - t[..., None] * v
 
 
 def skin_distance(
@@ -224,15 +254,31 @@ def _end_clearance(pose: _Relative) -> tuple[Floats, Floats, Floats, Any]:
     Returns:
         t in [0, 1], gap of the bone [m], unit normal (n, 3), whether lateral.
     """
-    low, high = np.zeros(len(pose.radius)), np.ones(len(pose.radius))
-    for _ in range(BISECTIONS):
-        t = (low + high) / 2
-        _, normal, _ = _solid_distance(pose, t)
-        rising = dot(normal, pose.bone) > 0
-        low, high = np.where(rising, low, t), np.where(rising, t, high)
-    t = (low + high) / 2
+
+    def slope(t: Floats) -> Floats:
+        return dot(_solid_distance(pose, t)[1], pose.bone)
+
+    t = least_of_convex(slope, len(pose.radius))
     gap, normal, lateral = _solid_distance(pose, t)
     return t, gap, normal, lateral
+
+
+def least_of_convex(slope: Callable[[Floats], Floats], count: int) -> Floats:
+    """Where convex functions on [0, 1] are least, by bisection.
+
+    Args:
+        slope: Parameters (n,) to a subgradient of each function there.
+        count: Number n of functions.
+
+    Returns:
+        Parameters, shape (n,).
+    """
+    low, high = np.zeros(count), np.ones(count)
+    for _ in range(BISECTIONS):
+        t = (low + high) / 2
+        rising = slope(t) > 0
+        low, high = np.where(rising, low, t), np.where(rising, t, high)
+    return np.asarray((low + high) / 2)
 
 
 def _solid_distance(pose: _Relative, t: Floats) -> tuple[Floats, Floats, Any]:

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin.branch import Branch
-from zygopin.clearance import Clearance, Floats, dot
+from zygopin.clearance import Clearance, Floats, Nearest, dot
+from zygopin.obstacle import Capsule, ConvexMesh, Solid, Sphere
 
 REACH = 2.0
 """Half-length of the capsule that stands for a branch, in units of the foot's
@@ -67,6 +68,36 @@ def branch_clearance(bones: Floats, radii: Floats, branch: Branch) -> Clearance:
         record.normal.reshape(*shape, 3),
         record.lateral.reshape(shape),
     )
+
+
+def solid_nearest(bones: Floats, solid: Solid) -> Nearest:
+    """Where bare bones are nearest to a solid, by FCL.
+
+    A sphere or capsule is asked for as its core: FCL's distances between cores are
+    exact, those to the round solids only where they are apart.
+
+    Args:
+        bones: Bones [m], shape (n, 2, 3).
+        solid: The solid.
+
+    Returns:
+        The nearest points. In a box or mesh the gap is minus a way out, often but not
+        always the shortest; where bone and solid or core coincide, the normal is only
+        roughly outward.
+    """
+    origin = bones[0, 0] if len(bones) else np.zeros(3)
+    unit = _unit(bones - origin)
+    local = (bones - origin) / unit
+    bare = _capsules(local, np.zeros(len(local)))
+    other, middle, radius = _solid(solid, origin, unit)
+    gap, near, far = _nearest(bare, [other] * len(bare), signed=radius == 0)
+    t, core = _core(local, near)
+    apart = (np.abs(gap) > COINCIDENT)[:, None]
+    vectors = np.where(apart, np.sign(gap)[:, None] * (near - far), core - middle)
+    size = np.sqrt(dot(vectors, vectors))[:, None]
+    upward = np.broadcast_to((0.0, 0.0, 1.0), vectors.shape)
+    normal = np.divide(vectors, size, upward.copy(), where=size > 0)
+    return Nearest(t, (gap - radius) * unit, normal)
 
 
 def skin_distance(
@@ -176,6 +207,32 @@ def _capsules(bones: Floats, radii: Floats) -> list[fcl.CollisionObject]:
     return [*map(_placed, map(fcl.Capsule, radii, lengths), frames, bones.mean(1))]
 
 
+def _solid(
+    solid: Solid, origin: Floats, unit: float
+) -> tuple[fcl.CollisionObject, Floats, float]:
+    """A solid, or its core, seen from a place; its middle, and the core's radius."""
+    straight = np.array([1.0, 0.0, 0.0, 0.0])
+    if isinstance(solid, ConvexMesh):
+        vertices = (solid.vertices - origin) / unit
+        count = len(solid.triangles)
+        faces = np.insert(solid.triangles, 0, 3, axis=1).ravel()
+        hull = fcl.Convex(vertices, count, faces)
+        middle = vertices.mean(axis=0)
+        return _placed(hull, straight, np.zeros(3)), middle, 0.0
+    if isinstance(solid, Capsule):
+        ends = (solid.ends - origin) / unit
+        core = _capsules(ends[None], np.zeros(1))[0]
+        return core, ends.mean(axis=0), solid.radius / unit
+    centre = (solid.centre - origin) / unit
+    if isinstance(solid, Sphere):
+        point = fcl.Capsule(0.0, 0.0)
+        return _placed(point, straight, centre), centre, solid.radius / unit
+    box = fcl.CollisionObject(fcl.Box(*(solid.size / unit)))
+    box.setRotation(solid.rotation)
+    box.setTranslation(centre)
+    return box, centre, 0.0
+
+
 def _placed(shape: object, frame: Floats, centre: Floats) -> fcl.CollisionObject:
     """A shape in its place; setters cost half of what a Transform does."""
     solid = fcl.CollisionObject(shape)
@@ -187,14 +244,34 @@ def _placed(shape: object, frame: Floats, centre: Floats) -> fcl.CollisionObject
 def _nearest(
     first: Solids, second: Solids, *, signed: bool
 ) -> tuple[Floats, Floats, Floats]:
-    """Distances of pairs of solids and the nearest points of both."""
-    request = fcl.DistanceRequest(True, signed)
+    """Distances of pairs of solids and the nearest points of both.
+
+    Where solids overlap and a sign is wanted, the depth is that of a contact: FCL's
+    own signed distance is wrong at a touch and ends the process for thin boxes.
+    """
+    request = fcl.DistanceRequest(True)
     table = np.empty((len(first), 7))
     for row, one, other in zip(table, first, second, strict=True):
         result = fcl.DistanceResult()
         row[0] = fcl.distance(one, other, request, result)
         row[1:4], row[4:7] = result.nearest_points
+        if signed and row[0] <= 0:
+            row[:] = _contact(one, other, row)
     return table[:, 0], table[:, 1:4], table[:, 4:7]
+
+
+def _contact(
+    one: fcl.CollisionObject, other: fcl.CollisionObject, row: Floats
+) -> Floats:
+    """Minus the depth of an overlap and the deepest points of both, shape (7,)."""
+    result = fcl.CollisionResult()
+    request = fcl.CollisionRequest(num_max_contacts=1, enable_contact=True)
+    if not fcl.collide(one, other, request, result):
+        return np.concatenate([[0.0], row[1:]])
+    contact = result.contacts[0]
+    middle, depth = np.asarray(contact.pos), contact.penetration_depth
+    half = depth / 2 * np.asarray(contact.normal)
+    return np.concatenate([[-depth], middle + half, middle - half])
 
 
 def _quaternions(directions: Floats) -> Floats:

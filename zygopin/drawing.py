@@ -33,6 +33,10 @@ RINGS = tuple(
 )
 """Cut faces of the branch: inner and outer radii over its own, and paints."""
 
+OVERHANG = (0.21, 0.5)
+"""What is drawn of an infinite branch beyond the foot, over the foot's size: from
+a twig to a trunk."""
+
 HORN, BASE = Paint(0x2E2A27), Paint(0x5F6670)
 AXIS_PAINTS = tuple(Paint(c, on_top=True) for c in (0xC0392B, 0x3A9A4A, 0x2F5FC4))
 
@@ -46,6 +50,10 @@ BARE_BONE = 0.02
 
 KNUCKLE = 1.05
 """Radius of a drawn joint over the radius of the phalanx before it."""
+
+
+TALON_ROOT = 0.45
+"""Start of a talon beyond its phalanx's bone, over the phalanx's radius."""
 
 
 def finger_paint(index: int) -> Paint:
@@ -95,6 +103,30 @@ def draw_foot(canvas: Canvas, foot: Foot, bones: NDArray[np.float64]) -> None:
     canvas.ball("foot/base", bones[0, 0], 1.2 * float(radii.max()), BASE)
 
 
+def moved_parts(foot: Foot) -> list[list[tuple[str, float]]]:
+    """What of a drawn foot moves with each phalanx.
+
+    Args:
+        foot: The foot.
+
+    Returns:
+        For each phalanx, paths of `draw_foot`, and how far along its bone from its
+        start each has its own start [m].
+    """
+    radii, parts = drawn_radii(foot), []
+    for name, part in foot.finger_slices.items():
+        for rank, phalanx in enumerate(range(part.start, part.stop), start=1):
+            moved = [(f"foot/{name}/phalanx{rank}", 0.0)]
+            if rank > 1:
+                moved.append((f"foot/{name}/joint{rank}", 0.0))
+            if phalanx == part.stop - 1:
+                root = float(foot.lengths[phalanx] + TALON_ROOT * radii[phalanx])
+                moved.append((f"foot/{name}/talon", root))
+            parts.append(moved)
+    parts[0].append(("foot/base", 0.0))
+    return parts
+
+
 def draw_branch(canvas: Canvas, branch: Branch, stretch: tuple[float, float]) -> None:
     """Draw a stretch of a branch, with its cut faces.
 
@@ -111,6 +143,42 @@ def draw_branch(canvas: Canvas, branch: Branch, stretch: tuple[float, float]) ->
         for number, (inner, outer, paint) in enumerate(RINGS, start=1):
             path = f"branch/{name}/ring{number}"
             canvas.ring(path, facing, (inner * radius, outer * radius), paint)
+
+
+def stretch_beyond(
+    branch: Branch, points: NDArray[np.float64], size: float
+) -> tuple[float, float]:
+    """The part of an infinite branch that shows how a foot lies on it.
+
+    Args:
+        branch: One branch.
+        points: The foot's points [m], shape (…, 3).
+        size: The foot's size [m].
+
+    Returns:
+        Start and end along the axis from the branch's centre [m].
+    """
+    along = (points - branch.centre) @ branch.axis
+    least, most = (share * size for share in OVERHANG)
+    beyond = min(max(0.5 * float(branch.radius), least), most)
+    return float(along.min()) - beyond, float(along.max()) + beyond
+
+
+def rims(branch: Branch, stretch: tuple[float, float]) -> NDArray[np.float64]:
+    """Points of the circles around both ends of a stretch of a branch.
+
+    Args:
+        branch: One branch.
+        stretch: Where it starts and ends along the axis from the centre [m].
+
+    Returns:
+        Points [m], shape (N, 3).
+    """
+    turn = np.linspace(0, 2 * math.pi, 24, endpoint=False)
+    circle = np.stack([np.cos(turn), np.sin(turn)], -1) @ branch.frame()[:, :2].T
+    middles = branch.centre + np.outer(stretch, branch.axis)
+    points: NDArray[np.float64] = middles[:, None] + float(branch.radius) * circle
+    return points.reshape(-1, 3)
 
 
 def draw_contacts(canvas: Canvas, report: GraspReport) -> None:
@@ -130,18 +198,19 @@ def draw_contacts(canvas: Canvas, report: GraspReport) -> None:
         canvas.arrow(f"{path}/normal", np.stack([point, tip]), 0.45 * size, paint)
 
 
-def draw_axes(canvas: Canvas, view: View) -> float:
+def draw_axes(canvas: Canvas, view: View, right: float = 0.68) -> float:
     """Draw the directions x, y and z in a corner, as long as a round length.
 
     Args:
         canvas: What they are drawn on.
         view: Whose frame's corner it is.
+        right: Place across the frame, from -1 to 1.
 
     Returns:
         The arms' length [m].
     """
     arm = _round_length(0.24 * view.unit)
-    corner = view.corner(0.68, -0.86)
+    corner = view.corner(right, -0.86)
     for name, direction, paint in zip("xyz", np.eye(3), AXIS_PAINTS, strict=True):
         ends = np.stack([corner, corner + arm * direction])
         canvas.arrow(f"axes/{name}", ends, 0.008 * view.unit, paint)
@@ -170,7 +239,8 @@ def _draw_talon(
 ) -> None:
     """A cone that goes on from the last phalanx: an ornament, not in the model."""
     along = (bone[1] - bone[0]) / np.linalg.norm(bone[1] - bone[0])
-    ends = np.stack([bone[1] + 0.45 * radius * along, bone[1] + 2.8 * radius * along])
+    reach = (TALON_ROOT * radius, 2.8 * radius)
+    ends = np.stack([bone[1] + length * along for length in reach])
     canvas.rod(path, ends, (0.85 * radius, 0.0), HORN)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin import checks
-from zygopin.branch import Branch
+from zygopin.branch import Branch, check_base
 from zygopin.clearance import Clearance, Floats
 from zygopin.engine import Engine, EngineName, make_engine
 from zygopin.errors import ParameterError, UnknownNameError
@@ -126,18 +126,13 @@ class GraspReport:
     scalar_product_base_to_tip: Floats
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if isinstance(value, (np.ndarray, np.generic)):
-                value = np.array(value)
-                value.setflags(write=False)
-                object.__setattr__(self, field.name, value)
+        checks.freeze(self)
 
     def difference(self, other: GraspReport) -> float:
         """Largest difference of clearances, the report's check by another engine.
 
         A phalanx that is inside a finite branch near its end has two depths: that of
-        its deepest point (exact engine) and that of the shortest way out (FCL).
+        its deepest point (exact engine) and that of a way out (FCL).
 
         Args:
             other: A report on the same controls and branch.
@@ -173,7 +168,8 @@ def check_grasp(
         The report, batched.
 
     Raises:
-        ParameterError: A control is outside [0, 1], or shapes do not fit.
+        ParameterError: A control is outside [0, 1], shapes do not fit, or the branch
+            holds the foot's base.
         UnknownNameError: A finger, engine or reading does not exist.
     """
     values = as_controls(foot, controls)
@@ -182,7 +178,7 @@ def check_grasp(
     if made.foot != foot:
         remedy = "make the engine for this foot"
         raise ParameterError("engine.foot", made.foot.name, "the foot", remedy)
-    check_size(foot, branch)
+    check_branch(foot, branch)
     shapes = values.shape[:-1], branch.batch_shape
     batch = checks.common_batch("controls and branch", *shapes)
     count = int(np.prod(batch, dtype=int))
@@ -199,16 +195,18 @@ def check_grasp(
     return _joined(parts, branch, batch)
 
 
-def check_size(foot: Foot, branch: Branch) -> None:
-    """A branch is of a size and at a place that mean something to a foot.
+def check_branch(foot: Foot, branch: Branch) -> None:
+    """A branch leaves the base outside, and is of a size that means something.
 
     Args:
         foot: The foot.
         branch: The branch, or a batch.
 
     Raises:
-        ParameterError: It is beyond `FARTHEST` or thinner than `THINNEST`.
+        ParameterError: It holds the foot's base inside it, is beyond `FARTHEST` or
+            thinner than `THINNEST`.
     """
+    check_base(branch)
     radius = np.asarray(branch.radius)
     far, thin = FARTHEST * foot.size, THINNEST * foot.size
     extent = radius + np.linalg.norm(branch.centre, axis=-1)
@@ -287,27 +285,52 @@ def _verdicts(
     section = _least_product(foot, near.normal, contacts.tangent)
     base_to_tip = _least_product(foot, lines, contacts.tangent)
     decisive = section if criteria.reading == "section" else base_to_tip
-    # Bare bones that cross have no depth: their distance is zero, not negative.
-    least = -tolerance if foot.thickness > 0 else tolerance
     return {
         "stable": np.isfinite(decisive),
         "grasping": np.nan_to_num(decisive, nan=np.inf) <= PARAMETER_SLACK,
-        "feasible": ~contacts.penetrating.any(axis=-1) & (apart >= least),
+        "feasible": ~contacts.penetrating.any(axis=-1)
+        & (apart >= least_gap(foot, tolerance)),
         "scalar_product": section,
         "scalar_product_base_to_tip": base_to_tip,
     }
 
 
-def _finger_clearance(foot: Foot, bones: Floats, engine: Engine) -> Floats:
-    """Least distance between the skins of two fingers; infinite for one finger.
+def least_gap(foot: Foot, tolerance: float) -> float:
+    """Least distance between fingers that do not collide.
+
+    Bare bones that cross have no depth: their distance is zero, not negative.
+
+    Args:
+        foot: The foot.
+        tolerance: Contact tolerance [m].
+
+    Returns:
+        The distance of their skins [m].
+    """
+    return -tolerance if foot.thickness > 0 else tolerance
+
+
+def finger_pairs(foot: Foot) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Pairs of phalanges of different fingers that can meet.
 
     First phalanges share the base junction, so they are not held against each other.
+
+    Args:
+        foot: The foot.
+
+    Returns:
+        Indices of the first and of the second phalanges, shape (M,) each.
     """
     i, j = np.triu_indices(foot.phalanx_count, 1)
     finger, rank = foot.finger_of_phalanx, foot.rank_of_phalanx
     apart = (finger[i] != finger[j]) & (rank[i] + rank[j] > 2)
-    pairs = (i[apart], j[apart])
-    if not apart.any():
+    return i[apart], j[apart]
+
+
+def _finger_clearance(foot: Foot, bones: Floats, engine: Engine) -> Floats:
+    """Least distance between the skins of two fingers; infinite for one finger."""
+    pairs = finger_pairs(foot)
+    if not len(pairs[0]):
         return np.full(bones.shape[:-3], np.inf)
     return np.asarray(engine.skin_distance(bones, foot.radii, pairs).min(axis=-1))
 

@@ -244,13 +244,12 @@ def make_branch(
     Raises:
         UsageError: The branch would hold the foot's base inside it.
     """
-    from zygopin.branch import Branch, branch_axis
+    from zygopin.branch import Branch, branch_axis, check_base
 
+    branch = Branch(radius, (0.0, 0.0, height), branch_axis(yaw, pitch), length)
     try:
-        return Branch(radius, (0.0, 0.0, height), branch_axis(yaw, pitch), length)
+        check_base(branch)
     except ParameterError as error:
-        if not error.name.startswith("distance of the base"):
-            raise
         level = abs(math.cos(pitch))
         if level < STEEP:
             message = f"--pitch-deg = {math.degrees(pitch):.6g} is too steep: try 30."
@@ -259,3 +258,4 @@ def make_branch(
             f"--height-mm = {height * 1e3:.6g} puts the foot's base inside the branch: "
             f"give at most {-radius / level * 1e3:.6g}, a branch below the base."
         ) from error
+    return branch

@@ -17,8 +17,8 @@ from zygopin.grasp import (
     PARAMETER_SLACK,
     Criteria,
     GraspReport,
+    check_branch,
     check_grasp,
-    check_size,
 )
 from zygopin.reason import MILLIMETRES, why_not
 from zygopin.wrap import FingerPoses, finger_poses
@@ -111,14 +111,14 @@ def plan_perch(
         The best plan; its `reason` says why where it is no feasible grasp.
 
     Raises:
-        ParameterError: A batch of branches, a vertical branch whose height is to be
-            found, or levels out of range.
+        ParameterError: A batch of branches, one that holds the foot's base, a vertical
+            branch whose height is to be found, or levels out of range.
     """
     if branch.batch_shape:
         remedy = "plan for one branch at a time"
         raise ParameterError("branch batch", branch.batch_shape, "()", remedy)
     levels = checks.integer("levels", levels, 2, 33)
-    check_size(foot, branch)
+    check_branch(foot, branch)
     if find_height:
         branch = _best_height(foot, branch)
     report, wrap = _planned(foot, branch, levels)

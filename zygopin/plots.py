@@ -2,30 +2,30 @@
 
 from __future__ import annotations
 
-import io
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin.errors import MissingExtraError, ParameterError
+from zygopin.errors import ParameterError
 from zygopin.extent import box_dimension
-from zygopin.files import write_bytes
-from zygopin.foot import Foot
+from zygopin.figures import (
+    ACCENT,
+    INK,
+    PALE,
+    Axes,
+    AxesImage,
+    LogNorm,
+    Unit,
+    name_axes,
+    new_figure,
+    save_figure,
+    unit_of,
+)
 from zygopin.hausdorff import hausdorff_distance
 from zygopin.reach import FingerReach
-
-try:
-    from matplotlib.axes import Axes
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.colors import LogNorm
-    from matplotlib.figure import Figure
-    from matplotlib.image import AxesImage
-except ImportError as error:
-    raise MissingExtraError("matplotlib", "plots") from error
 
 CELLS = 480
 """Cells across the longer side of a density."""
@@ -33,47 +33,11 @@ CELLS = 480
 PANEL = 4.2
 """Width of a panel [inches]: that of its title."""
 
-DOTS_PER_INCH = 150
-
 MOST_DOTS = 40_000
 """Points of a set that are drawn one by one."""
 
 MOST_PANELS = 6
 """Sets of a sequence that get panels of their own."""
-
-LARGE = 0.5
-"""Size of a foot from which its figures are in metres [m], not in millimetres."""
-
-INK, ACCENT, PALE = "#22272e", "#c0392b", "#c9ced6"
-
-
-@dataclass(frozen=True)
-class Unit:
-    """A unit of length on a figure.
-
-    Attributes:
-        name: Its symbol.
-        per_metre: How many make a metre.
-    """
-
-    name: str
-    per_metre: float
-
-    def text(self, metres: float) -> str:
-        """A length in words: four figures and the unit."""
-        return f"{metres * self.per_metre:.4g} {self.name}"
-
-
-def unit_of(foot: Foot) -> Unit:
-    """The unit that suits a foot: metres for the model's own, else millimetres.
-
-    Args:
-        foot: The foot.
-
-    Returns:
-        The unit.
-    """
-    return Unit("m", 1.0) if foot.size >= LARGE else Unit("mm", 1e3)
 
 
 def plot_reach(
@@ -100,11 +64,11 @@ def plot_reach(
     counts = [_density(reach.points, box, cell) for reach in reaches]
     most = max(int(count.max()) for count in counts)
     height = PANEL * float(np.ptp(box[1]) / np.ptp(box[0]))
-    figure = _figure(1.3 + PANEL * len(reaches), 1.5 + min(height, 2 * PANEL))
+    figure = new_figure(1.3 + PANEL * len(reaches), 1.5 + min(height, 2 * PANEL))
     panels = figure.subplots(1, len(reaches), squeeze=False, sharey=True)[0]
     for panel, reach, count in zip(panels, reaches, counts, strict=True):
         image = _draw_density(panel, count, box * unit.per_metre, most)
-        _name_axes(panel, unit, leftmost=panel is panels[0])
+        name_axes(panel, unit, leftmost=panel is panels[0])
         words = _reach_title(reach, unit)
         if hull:
             words += f"\n{_drawn_hull(panel, reach, unit)}"
@@ -112,7 +76,7 @@ def plot_reach(
     label = f"points per cell of {unit.text(cell)}"
     figure.colorbar(image, ax=list(panels), label=label, shrink=0.8)
     figure.suptitle(f"$R_{{{reaches[0].depth}}}$ of {_name(reaches[0])}", fontsize=11)
-    return _save(figure, path)
+    return save_figure(figure, path)
 
 
 def plot_convergence(reaches: Sequence[FingerReach], path: Path | str) -> Path:
@@ -136,7 +100,7 @@ def plot_convergence(reaches: Sequence[FingerReach], path: Path | str) -> Path:
     unit, last = unit_of(reaches[0].foot), reaches[-1]
     places = np.linspace(0, len(reaches) - 2, min(MOST_PANELS, len(reaches) - 1))
     shown = [reaches[round(place)] for place in places]
-    figure = _figure(12.0, 6.0)
+    figure = new_figure(12.0, 6.0)
     grid = figure.add_gridspec(2, len(shown), height_ratios=(1.35, 1))
     box = _box(np.concatenate([_corners(reach.points) for reach in reaches]))
     for column, reach in enumerate(shown):
@@ -145,10 +109,10 @@ def plot_convergence(reaches: Sequence[FingerReach], path: Path | str) -> Path:
         _draw_dots(panel, reach, unit, ACCENT)
         panel.set_title(f"$R_{{{reach.depth}}}$, {_count(reach)} points", fontsize=9)
         panel.set(xlim=box[0] * unit.per_metre, ylim=box[1] * unit.per_metre)
-        _name_axes(panel, unit, leftmost=column == 0)
+        name_axes(panel, unit, leftmost=column == 0)
     _draw_distances(figure.add_subplot(grid[1, :]), reaches, unit)
     figure.suptitle(f"{_full_name(last)}; grey: $R_{{{last.depth}}}$", fontsize=11)
-    return _save(figure, path)
+    return save_figure(figure, path)
 
 
 def plot_box_counts(reach: FingerReach, path: Path | str) -> Path:
@@ -171,7 +135,7 @@ def plot_box_counts(reach: FingerReach, path: Path | str) -> Path:
     unit, found = unit_of(reach.foot), box_dimension(reach.points)
     sides = found.sides * unit.per_metre
     fit = np.polyfit(np.log(sides), np.log(found.counts), 1)
-    figure = _figure(6.4, 4.8)
+    figure = new_figure(6.4, 4.8)
     panel = figure.subplots()
     panel.loglog(sides, found.counts, "o", color=ACCENT, label="boxes with a point")
     slope = (
@@ -191,7 +155,7 @@ def plot_box_counts(reach: FingerReach, path: Path | str) -> Path:
         f"box-counting dimension {found.dimension:.4g}, boxes of {spread}",
         fontsize=9,
     )
-    return _save(figure, path)
+    return save_figure(figure, path)
 
 
 def _draw_density(
@@ -310,30 +274,9 @@ def _full_name(reach: FingerReach) -> str:
     return f"{_name(reach)}, ω = {omega:.6g}°, {len(reach.plane.levels)} levels"
 
 
-def _name_axes(panel: Axes, unit: Unit, *, leftmost: bool) -> None:
-    """What is along the axes; z is named once in a row."""
-    panel.set_xlabel(f"x, along the finger [{unit.name}]", fontsize=9)
-    panel.tick_params(labelsize=8, labelleft=leftmost)
-    if leftmost:
-        panel.set_ylabel(f"z, up [{unit.name}]", fontsize=9)
-
-
 def _check_some(reaches: Sequence[FingerReach], least: int = 1) -> None:
     """There are sets to draw."""
     if len(reaches) < least:
         allowed = f"at least {least}"
         remedy = "give the sets to draw"
         raise ParameterError("number of reachable sets", len(reaches), allowed, remedy)
-
-
-def _figure(width: float, height: float) -> Figure:
-    """An empty figure [inches] that no window knows of."""
-    return Figure((width, height), dpi=DOTS_PER_INCH, layout="constrained")
-
-
-def _save(figure: Figure, path: Path | str) -> Path:
-    """Write a figure as PNG, without the program's version in it."""
-    FigureCanvasAgg(figure)
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", metadata={"Software": None})
-    return write_bytes(path, buffer.getvalue())

@@ -4,23 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
-from typing import IO, Any, BinaryIO
-from zipfile import ZipFile, ZipInfo
+from typing import IO, Any
 
 import numpy as np
 
+from zygopin.archive import Content, write_archive
 from zygopin.errors import ParameterError
-from zygopin.files import write_stream
 from zygopin.foot import Foot
 from zygopin.reach import FingerReach
 from zygopin.validation import ValidationRow
 
 MILLIMETRES = 1e3
 """Millimetres in a metre."""
-
-UNIX = 3
-"""The system that archives name as their maker's: their bytes are the same on all."""
 
 
 def validation_document(foot: Foot, rows: Sequence[ValidationRow]) -> dict[str, Any]:
@@ -146,7 +143,8 @@ def write_arrays(reaches: Sequence[FingerReach], path: Path | str) -> Path:
     """
     _check_sizes(reaches)
     first = reaches[0]
-    arrays = {
+    arrays: dict[str, Content] = {
+        "points": partial(_write_points, reaches),
         "levels": first.plane.levels,
         "omega": [reach.foot.omega for reach in reaches],
         "depth_bound": [reach.depth_bound for reach in reaches],
@@ -157,16 +155,7 @@ def write_arrays(reaches: Sequence[FingerReach], path: Path | str) -> Path:
         "orientation": first.finger.orientation,
         "azimuth": first.finger.azimuth,
     }
-
-    def write(file: BinaryIO) -> None:
-        with ZipFile(file, "w") as archive:
-            with _member(archive, "points") as member:
-                _write_points(reaches, member)
-            for name, values in arrays.items():
-                with _member(archive, name) as member:
-                    np.lib.format.write_array(member, np.asarray(values))
-
-    return write_stream(path, write)
+    return write_archive(path, arrays)
 
 
 def _check_sizes(reaches: Sequence[FingerReach]) -> None:
@@ -175,13 +164,6 @@ def _check_sizes(reaches: Sequence[FingerReach]) -> None:
     if len(set(sizes)) != 1:
         remedy = "give sets of one depth and one number of levels"
         raise ParameterError("points of the sets", sizes, "one number", remedy)
-
-
-def _member(archive: ZipFile, name: str) -> IO[bytes]:
-    """A place for an array in an archive, without the time of day."""
-    place = ZipInfo(f"{name}.npy")
-    place.create_system = UNIX
-    return archive.open(place, "w", force_zip64=True)
 
 
 def _write_points(reaches: Sequence[FingerReach], file: IO[bytes]) -> None:

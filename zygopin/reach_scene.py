@@ -14,17 +14,12 @@ from numpy.typing import NDArray
 from zygopin.camera import framed
 from zygopin.canvas import Canvas
 from zygopin.caption import Key, Lengths, foot_rows, legend, section
-from zygopin.drawing import (
-    AXIS_PAINTS,
-    draw_axes,
-    draw_foot,
-    drawn_radii,
-    finger_paint,
-)
+from zygopin.drawing import draw_axes, draw_foot, drawn_radii, finger_paint
 from zygopin.files import write_text
 from zygopin.foot import Foot
 from zygopin.kinematics import forward_kinematics
 from zygopin.reach import MOST_LEVELS, FingerReach, finger_reach, levels_within
+from zygopin.scene import direction_pairs, keys
 from zygopin.solids import Paint
 from zygopin.viewer import Recorder, page, set_stage
 
@@ -175,6 +170,4 @@ def _colours(foot: Foot, arm: float) -> Iterator[Key]:
     """What each colour stands for."""
     for index, finger in enumerate(foot.fingers):
         yield Key(finger_paint(index).css, finger.name)
-    directions = ("x forward", "y left", "z up")
-    for name, paint in zip(directions, AXIS_PAINTS, strict=True):
-        yield Key(paint.css, f"{name}, {arm * 1e3:g} mm")
+    yield from keys(direction_pairs(arm))

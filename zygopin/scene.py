@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
-from zygopin.branch import Branch
 from zygopin.camera import View, framed, grasp_direction
 from zygopin.canvas import Canvas
 from zygopin.caption import Key, caption
@@ -25,6 +24,8 @@ from zygopin.drawing import (
     draw_foot,
     drawn_radii,
     finger_paint,
+    rims,
+    stretch_beyond,
 )
 from zygopin.errors import ParameterError
 from zygopin.files import write_text
@@ -32,10 +33,6 @@ from zygopin.foot import Foot
 from zygopin.grasp import GraspReport
 from zygopin.solids import Paint
 from zygopin.viewer import Recorder, page, set_stage
-
-OVERHANG = (0.21, 0.5)
-"""What is drawn of an infinite branch beyond the foot, over the foot's size: from
-a twig to a trunk."""
 
 WIDE_BRANCH = 0.8
 """Radius over the foot's size from which the frame leaves the branch out."""
@@ -86,9 +83,9 @@ def grasp_view(report: GraspReport) -> View:
     """
     points, radii = report.bones.reshape(-1, 3), np.repeat(drawn_radii(report.foot), 2)
     if report.branch.radius < WIDE_BRANCH * report.foot.size:
-        rims = _rims(report.branch, infinite_stretch(report))
-        points = np.concatenate([points, rims])
-        radii = np.concatenate([radii, np.zeros(len(rims))])
+        ends = rims(report.branch, infinite_stretch(report))
+        points = np.concatenate([points, ends])
+        radii = np.concatenate([radii, np.zeros(len(ends))])
     return framed(points, radii, grasp_direction(report.branch))
 
 
@@ -114,10 +111,7 @@ def infinite_stretch(report: GraspReport) -> tuple[float, float]:
     Returns:
         Start and end along the axis from the branch's centre [m].
     """
-    low, high = _foot_span(report)
-    least, most = (share * report.foot.size for share in OVERHANG)
-    beyond = min(max(0.5 * float(report.branch.radius), least), most)
-    return low - beyond, high + beyond
+    return stretch_beyond(report.branch, report.bones, report.foot.size)
 
 
 def verdict_paint(report: GraspReport) -> Paint:
@@ -156,21 +150,6 @@ def _default_title(report: GraspReport) -> str:
     )
 
 
-def _rims(branch: Branch, stretch: tuple[float, float]) -> NDArray[np.float64]:
-    """Points of the circles around both ends of a stretch [m], shape (N, 3)."""
-    turn = np.linspace(0, 2 * math.pi, 24, endpoint=False)
-    circle = np.stack([np.cos(turn), np.sin(turn)], -1) @ branch.frame()[:, :2].T
-    middles = branch.centre + np.outer(stretch, branch.axis)
-    rims: NDArray[np.float64] = middles[:, None] + float(branch.radius) * circle
-    return rims.reshape(-1, 3)
-
-
-def _foot_span(report: GraspReport) -> tuple[float, float]:
-    """How far the foot reaches along the branch's axis, from its centre [m]."""
-    along = (report.bones - report.branch.centre) @ report.branch.axis
-    return float(along.min()), float(along.max())
-
-
 def _legend(foot: Foot, arm: float) -> list[Key]:
     """What each colour stands for."""
     pairs = [(finger_paint(i), finger.name) for i, finger in enumerate(foot.fingers)]
@@ -181,6 +160,29 @@ def _legend(foot: Foot, arm: float) -> list[Key]:
         (TOUCHING, "mere touch"),
         (PENETRATING, "penetration"),
     ]
-    directions = zip(("x forward", "y left", "z up"), AXIS_PAINTS, strict=True)
-    pairs += [(paint, f"{name}, {arm * 1e3:g} mm") for name, paint in directions]
+    return keys([*pairs, *direction_pairs(arm)])
+
+
+def direction_pairs(arm: float) -> list[tuple[Paint, str]]:
+    """The paints of the directions, and what they stand for.
+
+    Args:
+        arm: Length that the directions are drawn with [m].
+
+    Returns:
+        Paints and plain texts.
+    """
+    directions = zip(AXIS_PAINTS, ("x forward", "y left", "z up"), strict=True)
+    return [(paint, f"{name}, {arm * 1e3:g} mm") for paint, name in directions]
+
+
+def keys(pairs: Iterable[tuple[Paint, str]]) -> list[Key]:
+    """Entries of a legend.
+
+    Args:
+        pairs: Paints, and what they stand for in plain text.
+
+    Returns:
+        The entries, in order.
+    """
     return [Key(paint.css, meaning) for paint, meaning in pairs]

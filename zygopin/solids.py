@@ -101,6 +101,14 @@ class Ring(shapes.Geometry):  # type: ignore[misc]
         return {"uuid": self.uuid, "type": "RingGeometry", **shape}
 
 
+class Facets(shapes.TriangularMeshGeometry):  # type: ignore[misc]
+    """Flat triangles: no two share a corner, so that each has its own normal."""
+
+    def __init__(self, corners: NDArray[np.float32]) -> None:
+        order = np.arange(3 * len(corners)).reshape(-1, 3)
+        super().__init__(corners.reshape(-1, 3), order)
+
+
 class Dots(shapes.PointsMaterial):  # type: ignore[misc]
     """Points of one size and one colour."""
 
@@ -118,6 +126,16 @@ class Cloud(shapes.Points):  # type: ignore[misc]
     ) -> None:
         geometry = shapes.PointsGeometry(points.T)
         material = Dots(size, paint.colour)
+        super().__init__(geometry, material)
+        _name_parts(path, self, geometry, material)
+
+
+class Thread(shapes.Line):  # type: ignore[misc]
+    """A line through points, one pixel wide, named after its path."""
+
+    def __init__(self, path: str, points: NDArray[np.float32], paint: Paint) -> None:
+        geometry = shapes.PointsGeometry(points.T)
+        material = shapes.LineBasicMaterial(color=paint.colour, opacity=paint.opacity)
         super().__init__(geometry, material)
         _name_parts(path, self, geometry, material)
 

@@ -77,6 +77,19 @@ class Recorder:
         self.messages.append(umsgpack.packb(command.lower()))
 
 
+@dataclass(frozen=True)
+class Player:
+    """What makes a page play a motion: what its script reads, and its controls.
+
+    Attributes:
+        motion: Values that are written as JSON; letters in them are ASCII.
+        controls: What stands under the scene, as HTML.
+    """
+
+    motion: dict[str, Any]
+    controls: str
+
+
 def set_stage(recorder: Recorder, view: View) -> None:
     """Put the viewer's camera, background and helpers in order.
 
@@ -100,7 +113,13 @@ def set_stage(recorder: Recorder, view: View) -> None:
     camera.set_property("fov", round(math.degrees(view.field_of_view), 6))
 
 
-def page(recorder: Recorder, view: View, title: str, caption: str) -> str:
+def page(
+    recorder: Recorder,
+    view: View,
+    title: str,
+    caption: str,
+    player: Player | None = None,
+) -> str:
     """A page that shows a recorded scene beside a caption.
 
     Args:
@@ -108,6 +127,7 @@ def page(recorder: Recorder, view: View, title: str, caption: str) -> str:
         view: Where the scene is seen from.
         title: The page's title, as plain text.
         caption: What stands beside the scene, as HTML.
+        player: What moves, and its controls; None: nothing does.
 
     Returns:
         The HTML text; it asks for no file and no server.
@@ -115,22 +135,27 @@ def page(recorder: Recorder, view: View, title: str, caption: str) -> str:
     Raises:
         FileError: meshcat's viewer is not where it belongs.
     """
-    scripts = {"library": _library(), "script": _asset("page.js")}
+    script = Template(_asset("page.js")).substitute(
+        player="" if player is None else _asset("player.js")
+    )
+    scripts = {"library": _library(), "script": script}
     hashes = " ".join(map(_source_hash, scripts.values()))
     return Template(_asset("page.html")).substitute(
         scripts,
         policy=html.escape(POLICY.format(scripts=hashes)),
         title=html.escape(title),
-        style=_asset("page.css"),
+        style=_asset("page.css") + ("" if player is None else _asset("player.css")),
+        player="" if player is None else f"\n{player.controls}",
         caption=caption,
-        scene=_scene_data(recorder, view),
+        scene=_scene_data(recorder, view, player),
     )
 
 
-def _scene_data(recorder: Recorder, view: View) -> str:
+def _scene_data(recorder: Recorder, view: View, player: Player | None) -> str:
     """What the page's script reads: ASCII letters and numbers only."""
     commands = [base64.b64encode(message).decode() for message in recorder.messages]
-    return json.dumps({"aspect": round(view.aspect, 6), "commands": commands})
+    motion = {} if player is None else {"motion": player.motion}
+    return json.dumps({"aspect": round(view.aspect, 6), "commands": commands, **motion})
 
 
 def _library() -> str:

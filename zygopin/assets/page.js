@@ -25,4 +25,4 @@
     viewer.handle_command_bytearray(bytes);
   }
   new ResizeObserver(() => viewer.set_3d_pane_size()).observe(pane);
-})();
+$player})();

@@ -1,0 +1,138 @@
+"""What moves in a scene, packed for the page that plays it."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from zygopin.canvas import DECIMALS, Canvas
+
+TIME_DECIMALS = 9
+"""Decimals of times in a page [s]: a strike takes tenths of a second."""
+
+FARTHEST = 1000.0
+"""Coordinate, in units of the view, at which positions are cut: far behind what the
+viewer draws, and few enough digits for 32 bits."""
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """A frame that moves, and the solids that move with it.
+
+    Attributes:
+        poses: T_world_track at each instant [m], shape (n, 4, 4).
+        parts: Paths of the solids, and how far along its x axis each starts [m].
+    """
+
+    poses: NDArray[np.float64]
+    parts: Sequence[tuple[str, float]]
+
+
+@dataclass(frozen=True)
+class Span:
+    """A stretch of time, until the next one starts.
+
+    Attributes:
+        start: When it starts [s].
+        name: Its name, in ASCII.
+        colour: Its CSS colour.
+    """
+
+    start: float
+    name: str
+    colour: str
+
+
+@dataclass(frozen=True, eq=False)
+class Playback:
+    """What changes in a scene over time.
+
+    Attributes:
+        times: Instants, ascending [s], shape (n,).
+        tracks: What moves.
+        spans: What is called what when; the first starts with the motion.
+        appearances: Paths of solids that are unseen until a time [s].
+    """
+
+    times: NDArray[np.float64]
+    tracks: Sequence[Track]
+    spans: Sequence[Span]
+    appearances: Sequence[tuple[str, float]]
+
+    def data(self, canvas: Canvas) -> dict[str, Any]:
+        """The motion as the page's script reads it.
+
+        Args:
+            canvas: What the solids are drawn on.
+
+        Returns:
+            Plain values.
+        """
+        return {
+            "times": [page_time(time) for time in self.times],
+            "timeDecimals": TIME_DECIMALS,
+            "decimals": clock_decimals(self.times),
+            "quantum": float(f"1e-{DECIMALS}"),
+            "tracks": [_addressed(canvas, track.parts) for track in self.tracks],
+            "poses": _packed(canvas, np.stack([t.poses for t in self.tracks], axis=1)),
+            "spans": [[page_time(p.start), p.name, p.colour] for p in self.spans],
+            "appearances": [
+                [canvas.address(path), page_time(time)]
+                for path, time in self.appearances
+            ],
+        }
+
+
+def page_time(time: float) -> float:
+    """A time as every part of a page has it.
+
+    Args:
+        time: The time [s].
+
+    Returns:
+        The time, rounded [s].
+    """
+    return round(float(time), TIME_DECIMALS) + 0.0
+
+
+def clock_decimals(times: NDArray[np.float64]) -> int:
+    """Decimals of milliseconds that tell a motion's instants apart.
+
+    Args:
+        times: Instants, ascending [s], shape (n,).
+
+    Returns:
+        One decimal for a strike of tenths of a second, fewer for longer ones.
+    """
+    span = max(float(times[-1] - times[0]), 1e-6)
+    return max(0, -int(np.floor(np.log10(span))))
+
+
+def _addressed(
+    canvas: Canvas, parts: Sequence[tuple[str, float]]
+) -> list[tuple[str, float]]:
+    """Parts as the viewer finds them, shifted in units of the view."""
+    return [
+        (canvas.address(path), round(along / canvas.unit, DECIMALS))
+        for path, along in parts
+    ]
+
+
+def _packed(canvas: Canvas, poses: NDArray[np.float64]) -> str:
+    """Poses (n, T, 4, 4) as base64 of little-endian 32-bit integers (n, T, 7).
+
+    Each holds a position in the view's units and a quaternion (x, y, z, w), both as
+    multiples of the scene's last decimal: exact, and a tenth of meshcat's keyframes.
+    """
+    units = canvas.in_units(poses)
+    places = np.clip(units[..., :3, 3], -FARTHEST, FARTHEST)
+    turns = Rotation.from_matrix(poses[..., :3, :3].reshape(-1, 3, 3)).as_quat()
+    values = np.concatenate([places, turns.reshape(*places.shape[:-1], 4)], axis=-1)
+    whole = np.round(values * 10.0**DECIMALS).astype("<i4")
+    return base64.b64encode(whole.tobytes()).decode()
