@@ -122,7 +122,7 @@ def test_a_figure_is_drawn(run, tmp_path):
         ((), "give one of --prey-radius-mm and --branch-radius-mm"),
         (("--prey-radius-mm", "9", "--branch-radius-mm", "9"), "give one of"),
         (("--prey-radius-mm", "-1"), "not a positive number of millimetres"),
-        (("--prey-radius-mm", "9", "--miss-mm", "1"), "--miss-mm has 1 numbers"),
+        (("--prey-radius-mm", "9", "--miss-mm", "1"), "--miss-mm = 1 is not x,y"),
         (("--prey-radius-mm", "9", "--slope-deg", "0"), "--slope-deg = 0 is not"),
         (("--prey-radius-mm", "9", "--speed", "0"), "metres per second"),
         (("--prey-radius-mm", "9", "--closing-ms", "nan"), "milliseconds"),

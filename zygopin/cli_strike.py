@@ -178,7 +178,8 @@ def _flight(
     from zygopin.attack import Attack
 
     if len(miss) != 2:
-        raise click.UsageError(f"--miss-mm has {len(miss)} numbers: give x,y.")
+        given = ",".join(f"{1e3 * each:g}" for each in miss)
+        raise click.UsageError(f"--miss-mm = {given} is not x,y: give two numbers.")
     if not 0 < slope <= math.radians(90) + 1e-12:
         shown = f"--slope-deg = {math.degrees(slope):.6g} is not above 0, up to 90"
         raise click.UsageError(f"{shown}: try 60.")
