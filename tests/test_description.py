@@ -1,4 +1,4 @@
-"""The URDF and the SRDF: their numbers, their text, and the tools that read them."""
+"""The URDF: its numbers, its text, and the tools that read it."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from hypothesis import given, settings
 from strategies import feet
 
 from zygopin import description
-from zygopin.description import to_srdf, to_urdf, write_description
+from zygopin.description import to_urdf
 from zygopin.errors import DescriptionError, FileError, ParameterError
 from zygopin.foot import Finger, Foot
 from zygopin.kinematics import forward_kinematics
@@ -145,11 +145,11 @@ def test_equal_feet_give_equal_text_wherever_they_are_expanded(tmp_path):
     code = (
         "from zygopin.description import *; from zygopin.foot import Foot; import sys;"
         "f = Foot.preset('owl');"
-        "sys.stdout.buffer.write((to_urdf(f, tendon=True) + to_srdf(f)).encode())"
+        "sys.stdout.buffer.write(to_urdf(f, tendon=True).encode())"
     )
     foot = Foot.preset("owl")
-    here = to_urdf(foot, tendon=True) + to_srdf(foot)
-    assert here == to_urdf(foot, tendon=True) + to_srdf(foot)
+    here = to_urdf(foot, tendon=True)
+    assert here == to_urdf(foot, tendon=True)
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONHASHSEED": "7"}
     done = subprocess.run(
         [sys.executable, "-c", code],
@@ -365,77 +365,6 @@ def test_pinocchio_moves_the_tendon_by_one_number(name, free):
         assert tip == pytest.approx(bones[part.stop - 1, 1], abs=1e-12 * foot.size)
 
 
-# The SRDF ------------------------------------------------------------------------
-
-
-def test_srdf_groups_are_chains_of_existing_links():
-    foot = Foot.preset("owl")
-    srdf, urdf = tree(to_srdf(foot)), parsed(foot)
-    links = {link.get("name") for link in urdf.findall("link")}
-    chains = srdf.findall("group/chain")
-    assert [chain.get("tip_link") for chain in chains] == [
-        f"finger{i}_tip" for i in (1, 2, 3, 4)
-    ]
-    assert {chain.get("base_link") for chain in chains} == {"foot"}
-    for pair in srdf.findall("disable_collisions"):
-        assert {pair.get("link1"), pair.get("link2")} <= links
-    assert srdf.find("virtual_joint").get("child_link") == "foot"
-
-
-def test_srdf_poses_are_within_limits_and_set_every_joint():
-    foot = Foot.preset("owl")
-    srdf, urdf = tree(to_srdf(foot)), parsed(foot)
-    limits = {
-        joint.get("name"): [
-            float(joint.find("limit").get(k)) for k in ("lower", "upper")
-        ]
-        for joint in urdf.findall("joint[@type='revolute']")
-    }
-    poses = {}
-    for state in srdf.findall("group_state"):
-        angles = {j.get("name"): float(j.get("value")) for j in state.findall("joint")}
-        assert angles.keys() == limits.keys()
-        for name, angle in angles.items():
-            assert limits[name][0] <= angle <= limits[name][1]
-        poses[state.get("name")] = angles
-    assert list(poses) == ["rest", "closed", "zygodactyl", "spread"]
-    assert set(poses["rest"].values()) == {0.0}
-    assert poses["closed"]["finger2_joint3"] == foot.omega
-    assert poses["spread"]["finger4_reversal"] == foot.fingers[3].reversal
-    assert poses["zygodactyl"]["finger4_reversal"] == 0.0
-
-
-def test_a_foot_that_cannot_turn_has_two_poses():
-    srdf = tree(to_srdf(Foot.preset("parrot")))
-    names = [state.get("name") for state in srdf.findall("group_state")]
-    assert names == ["rest", "closed"]
-
-
-def test_the_whole_group_avoids_a_finger_of_its_name():
-    srdf = tree(to_srdf(Foot(fingers=(Finger("foot", 1, 0.0),))))
-    groups = [group.get("name") for group in srdf.findall("group")]
-    assert groups == ["foot", "foot_whole"]
-
-
-STRAIGHT = [(name, "rest") for name in preset_names()] + [("owl", "spread")]
-
-
-@pytest.mark.parametrize(("name", "pose"), STRAIGHT)
-def test_straight_toes_collide_nowhere_once_the_pairs_are_removed(name, pose):
-    foot = Foot.preset(name)
-    urdf, srdf = expanded(foot), to_srdf(foot)
-    model = pin.buildModelFromXML(urdf)
-    pin.loadReferenceConfigurationsFromXML(model, srdf)
-    shapes = pin.buildGeomFromUrdfString(model, urdf, pin.GeometryType.COLLISION)
-    shapes.addAllCollisionPairs()
-    everything = len(shapes.collisionPairs)
-    pin.removeCollisionPairsFromXML(model, shapes, srdf)
-    assert 0 < len(shapes.collisionPairs) < everything
-    q = model.referenceConfigurations[pose]
-    data, shape_data = model.createData(), shapes.createData()
-    assert not pin.computeCollisions(model, data, shapes, shape_data, q, True)
-
-
 # Failure -------------------------------------------------------------------------
 
 
@@ -488,27 +417,3 @@ def test_expanding_leaves_the_safe_yaml_loader_safe(tmp_path):
     with pytest.raises(FileError, match="not YAML"):
         read_parameters(file)
     assert yaml.safe_load("1.5") == 1.5
-
-
-# Files ---------------------------------------------------------------------------
-
-
-def test_write_description_writes_three_files(tmp_path):
-    foot = Foot.preset("owl")
-    files = write_description(foot, tmp_path / "new" / "folder")
-    assert [file.name for file in files] == [
-        "foot.urdf",
-        "foot_tendon.urdf",
-        "foot.srdf",
-    ]
-    texts = [file.read_bytes().decode() for file in files]
-    assert texts == [to_urdf(foot), to_urdf(foot, tendon=True), to_srdf(foot)]
-    assert sorted(tmp_path.rglob("*.*")) == sorted(files)
-
-
-def test_an_unwritable_folder_is_one_line(tmp_path):
-    (tmp_path / "file").write_text("kept")
-    with pytest.raises(FileError, match="cannot be written") as caught:
-        write_description(Foot(), tmp_path / "file" / "below")
-    assert "\n" not in str(caught.value)
-    assert (tmp_path / "file").read_text() == "kept"

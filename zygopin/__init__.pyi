@@ -3,11 +3,10 @@
 from zygopin.attack import Attack as Attack
 from zygopin.branch import Branch as Branch
 from zygopin.branch import branch_axis as branch_axis
+from zygopin.bundle import write_description as write_description
 from zygopin.closing import Closing as Closing
 from zygopin.control_system import ControlSystem as ControlSystem
-from zygopin.description import to_srdf as to_srdf
 from zygopin.description import to_urdf as to_urdf
-from zygopin.description import write_description as write_description
 from zygopin.engagement_plots import plot_engagement as plot_engagement
 from zygopin.engine import Engine as Engine
 from zygopin.engine import make_engine as make_engine
@@ -50,6 +49,7 @@ from zygopin.paths import URDF_PATH as URDF_PATH
 from zygopin.paths import XACRO_PATH as XACRO_PATH
 from zygopin.perch import PerchPlan as PerchPlan
 from zygopin.perch import plan_perch as plan_perch
+from zygopin.poses import named_poses as named_poses
 from zygopin.presets import preset_names as preset_names
 from zygopin.reach import FingerReach as FingerReach
 from zygopin.reach import finger_reach as finger_reach
@@ -67,6 +67,7 @@ from zygopin.spread import SpreadStudy as SpreadStudy
 from zygopin.spread import spread_study as spread_study
 from zygopin.spread import strike_area as strike_area
 from zygopin.spread import talon_hull_area as talon_hull_area
+from zygopin.srdf import to_srdf as to_srdf
 from zygopin.strike import simulate_strike as simulate_strike
 from zygopin.strike_output import save_strike as save_strike
 from zygopin.strike_plots import plot_strike as plot_strike

@@ -61,7 +61,7 @@ main.add_command(strike)
 @_JSON
 def urdf(output: Path, as_json: bool, **foot: Any) -> None:
     """Write foot.urdf, foot_tendon.urdf and foot.srdf."""
-    from zygopin.description import write_description
+    from zygopin.bundle import write_description
 
     paths = write_description(make_foot(**foot), output)
     if as_json:

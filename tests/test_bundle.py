@@ -1,0 +1,32 @@
+"""The files of a foot in one folder."""
+
+from __future__ import annotations
+
+import pytest
+
+from zygopin.bundle import write_description
+from zygopin.description import to_urdf
+from zygopin.errors import FileError
+from zygopin.foot import Foot
+from zygopin.srdf import to_srdf
+
+
+def test_write_description_writes_three_files(tmp_path):
+    foot = Foot.preset("owl")
+    files = write_description(foot, tmp_path / "new" / "folder")
+    assert [file.name for file in files] == [
+        "foot.urdf",
+        "foot_tendon.urdf",
+        "foot.srdf",
+    ]
+    texts = [file.read_bytes().decode() for file in files]
+    assert texts == [to_urdf(foot), to_urdf(foot, tendon=True), to_srdf(foot)]
+    assert sorted(tmp_path.rglob("*.*")) == sorted(files)
+
+
+def test_an_unwritable_folder_is_one_line(tmp_path):
+    (tmp_path / "file").write_text("kept")
+    with pytest.raises(FileError, match="cannot be written") as caught:
+        write_description(Foot(), tmp_path / "file" / "below")
+    assert "\n" not in str(caught.value)
+    assert (tmp_path / "file").read_text() == "kept"

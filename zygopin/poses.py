@@ -1,0 +1,60 @@
+"""Named poses of a foot, for the formats that hold some: SRDF, MJCF."""
+
+from __future__ import annotations
+
+from itertools import chain
+
+import numpy as np
+
+from zygopin import names
+from zygopin.branch import Branch
+from zygopin.foot import Foot
+from zygopin.perch import plan_perch
+
+PERCH_RADIUS = 0.25
+"""Radius of the branch that the pose `perch` is for, over the foot's size."""
+
+ANGLE_DIGITS = 6
+"""Decimals of the perch's angles [rad]: beyond them machines may differ."""
+
+
+def named_poses(foot: Foot) -> dict[str, dict[str, float]]:
+    """Poses of a foot by name, each with every joint that moves.
+
+    `rest`: straight; `closed`: every flexion joint at omega; `perch`: the grasp that
+    `plan_perch` finds on a branch across the foot with a quarter of its size as
+    radius, left out where it finds none; where a toe turns, `zygodactyl` and `spread`:
+    straight, that toe at its azimuth and at its reversed one.
+
+    Args:
+        foot: The foot.
+
+    Returns:
+        {pose: {joint: angle [rad]}}, joints in the order of `names.moving_joints`.
+    """
+    still = dict.fromkeys(names.moving_joints(foot), 0.0)
+    joints = [*chain.from_iterable(map(names.flexion_joints, foot.fingers))]
+    turning = [*filter(names.is_reversible, foot.fingers)]
+    ahead = {names.reversal_joint(finger): finger.reversal for finger in turning}
+    poses = {"rest": still, "closed": still | dict.fromkeys(joints, foot.omega)}
+    plan = plan_perch(foot, standard_branch(foot), find_height=True)
+    if plan.grasping:
+        angles = np.round(foot.omega * plan.controls, ANGLE_DIGITS)
+        within = np.minimum(angles, foot.omega).tolist()
+        poses["perch"] = still | dict(zip(joints, within, strict=True))
+    if turning:
+        poses |= {"zygodactyl": still, "spread": still | ahead}
+    return poses
+
+
+def standard_branch(foot: Foot) -> Branch:
+    """The branch that the pose `perch` is for, before its height is found.
+
+    Args:
+        foot: The foot.
+
+    Returns:
+        A branch across the foot, below it, of PERCH_RADIUS times its size [m].
+    """
+    radius = PERCH_RADIUS * foot.size
+    return Branch(radius=radius, centre=(0.0, 0.0, -2 * radius))
