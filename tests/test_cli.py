@@ -252,7 +252,7 @@ def test_a_reader_that_leaves_early_is_no_verdict():
     assert result.stderr == ""
 
 
-def test_urdf_writes_three_files_and_lists_them(tmp_path):
+def test_urdf_writes_its_files_and_lists_them(tmp_path):
     result = run("urdf", "--preset", "owl", "-o", str(tmp_path), "--json")
     assert result.returncode == 0
     files = [Path(name) for name in json.loads(result.stdout)["files"]]
@@ -260,6 +260,7 @@ def test_urdf_writes_three_files_and_lists_them(tmp_path):
         "foot.urdf",
         "foot_tendon.urdf",
         "foot.srdf",
+        "foot_tendon.srdf",
     ]
     assert all("finger4_reversal" in file.read_text() for file in files)
 

@@ -11,14 +11,17 @@ from zygopin.srdf import to_srdf
 
 
 def write_description(foot: Foot, folder: Path | str) -> tuple[Path, ...]:
-    """Write foot.urdf, foot_tendon.urdf and foot.srdf, ready to load elsewhere.
+    """Write the URDF and the SRDF of both variants, ready to load elsewhere.
+
+    foot.urdf and foot.srdf; foot_tendon.urdf and foot_tendon.srdf, where one leader
+    joint moves all others.
 
     Args:
         foot: The foot.
         folder: Where to; created if it is missing.
 
     Returns:
-        The three files.
+        The files.
 
     Raises:
         DescriptionError: The template is missing or does not expand.
@@ -28,5 +31,6 @@ def write_description(foot: Foot, folder: Path | str) -> tuple[Path, ...]:
         "foot.urdf": to_urdf(foot),
         "foot_tendon.urdf": to_urdf(foot, tendon=True),
         "foot.srdf": to_srdf(foot),
+        "foot_tendon.srdf": to_srdf(foot, tendon=True),
     }
     return tuple(write_text(Path(folder) / name, text) for name, text in texts.items())

@@ -60,7 +60,7 @@ main.add_command(strike)
 )
 @_JSON
 def urdf(output: Path, as_json: bool, **foot: Any) -> None:
-    """Write foot.urdf, foot_tendon.urdf and foot.srdf."""
+    """Write foot.urdf, foot.srdf and both with a tendon."""
     from zygopin.bundle import write_description
 
     paths = write_description(make_foot(**foot), output)

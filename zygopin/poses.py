@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from itertools import chain
 
 import numpy as np
@@ -16,6 +17,9 @@ PERCH_RADIUS = 0.25
 
 ANGLE_DIGITS = 6
 """Decimals of the perch's angles [rad]: beyond them machines may differ."""
+
+TURNED_POSES = ("zygodactyl", "spread")
+"""Poses that differ only in where the toes that turn point."""
 
 
 def named_poses(foot: Foot) -> dict[str, dict[str, float]]:
@@ -37,11 +41,9 @@ def named_poses(foot: Foot) -> dict[str, dict[str, float]]:
     turning = [*filter(names.is_reversible, foot.fingers)]
     ahead = {names.reversal_joint(finger): finger.reversal for finger in turning}
     poses = {"rest": still, "closed": still | dict.fromkeys(joints, foot.omega)}
-    plan = plan_perch(foot, standard_branch(foot), find_height=True)
-    if plan.grasping:
-        angles = np.round(foot.omega * plan.controls, ANGLE_DIGITS)
-        within = np.minimum(angles, foot.omega).tolist()
-        poses["perch"] = still | dict(zip(joints, within, strict=True))
+    perching = _perch_angles(foot)
+    if perching:
+        poses["perch"] = still | dict(zip(joints, perching, strict=True))
     if turning:
         poses |= {"zygodactyl": still, "spread": still | ahead}
     return poses
@@ -58,3 +60,16 @@ def standard_branch(foot: Foot) -> Branch:
     """
     radius = PERCH_RADIUS * foot.size
     return Branch(radius=radius, centre=(0.0, 0.0, -2 * radius))
+
+
+@lru_cache(maxsize=8)
+def _perch_angles(foot: Foot) -> tuple[float, ...]:
+    """Angles of the flexion joints in the pose `perch` [rad]; none without a grasp.
+
+    Kept: a folder of files asks for them once for each format.
+    """
+    plan = plan_perch(foot, standard_branch(foot), find_height=True)
+    if not plan.grasping:
+        return ()
+    angles = np.round(foot.omega * plan.controls, ANGLE_DIGITS)
+    return tuple(np.minimum(angles, foot.omega).tolist())
