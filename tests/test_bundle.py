@@ -31,6 +31,6 @@ def test_write_description_writes_a_urdf_and_an_srdf_of_each_variant(tmp_path):
 def test_an_unwritable_folder_is_one_line(tmp_path):
     (tmp_path / "file").write_text("kept")
     with pytest.raises(FileError, match="cannot be written") as caught:
-        write_description(Foot(), tmp_path / "file" / "below")
+        write_description(Foot.preset("parrot"), tmp_path / "file" / "below")
     assert "\n" not in str(caught.value)
     assert (tmp_path / "file").read_text() == "kept"

@@ -18,7 +18,8 @@ from zygopin.srdf import to_srdf
 def expanded(suffix, foot, tendon):
     """A preset's shipped file; another test holds it against what is written."""
     variant = "_tendon" if tendon else ""
-    file = PACKAGE_PATH / "expanded" / f"{foot.name}{variant}.{suffix}"
+    name = foot.name.replace("_", "-")
+    file = PACKAGE_PATH / "expanded" / f"{name}{variant}.{suffix}"
     return file.read_text(encoding="utf-8")
 
 
