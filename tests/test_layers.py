@@ -24,6 +24,7 @@ LAYERS = (
     "extent",
     "stadiums",
     "paths",
+    "robot_description",
     "files",
     "archive",
     "hausdorff",
