@@ -54,6 +54,7 @@ LAYERS = (
     "perch",
     "poses",
     "srdf",
+    "mesh",
     "bundle",
     "motion",
     "closing",
