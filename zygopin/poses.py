@@ -10,7 +10,7 @@ import numpy as np
 from zygopin import names
 from zygopin.branch import Branch
 from zygopin.foot import Foot
-from zygopin.perch import plan_perch
+from zygopin.perch import PerchPlan, plan_perch
 
 PERCH_RADIUS = 0.25
 """Radius of the branch that the pose `perch` is for, over the foot's size."""
@@ -41,9 +41,11 @@ def named_poses(foot: Foot) -> dict[str, dict[str, float]]:
     turning = [*filter(names.is_reversible, foot.fingers)]
     ahead = {names.reversal_joint(finger): finger.reversal for finger in turning}
     poses = {"rest": still, "closed": still | dict.fromkeys(joints, foot.omega)}
-    perching = _perch_angles(foot)
-    if perching:
-        poses["perch"] = still | dict(zip(joints, perching, strict=True))
+    plan = standard_perch(foot)
+    if plan.grasping:
+        angles = np.round(foot.omega * plan.controls, ANGLE_DIGITS)
+        within = np.minimum(angles, foot.omega).tolist()
+        poses["perch"] = still | dict(zip(joints, within, strict=True))
     if turning:
         poses |= {"zygodactyl": still, "spread": still | ahead}
     return poses
@@ -62,14 +64,14 @@ def standard_branch(foot: Foot) -> Branch:
     return Branch(radius=radius, centre=(0.0, 0.0, -2 * radius))
 
 
-@lru_cache(maxsize=8)
-def _perch_angles(foot: Foot) -> tuple[float, ...]:
-    """Angles of the flexion joints in the pose `perch` [rad]; none without a grasp.
+@lru_cache(maxsize=16)
+def standard_perch(foot: Foot) -> PerchPlan:
+    """The plan that the pose `perch` is from; kept, for several formats ask for it.
 
-    Kept: a folder of files asks for them once for each format.
+    Args:
+        foot: The foot.
+
+    Returns:
+        What `plan_perch` finds on the standard branch, with that branch's height.
     """
-    plan = plan_perch(foot, standard_branch(foot), find_height=True)
-    if not plan.grasping:
-        return ()
-    angles = np.round(foot.omega * plan.controls, ANGLE_DIGITS)
-    return tuple(np.minimum(angles, foot.omega).tolist())
+    return plan_perch(foot, standard_branch(foot), find_height=True)

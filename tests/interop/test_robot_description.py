@@ -95,10 +95,7 @@ def test_mujoco():
     for joint, angle in ANGLES.items():
         data.joint(joint).qpos = angle
     mujoco.mj_kinematics(model, data)
-    base = data.body("foot").xpos
-    for finger in FOOT.fingers:
-        first = data.body(f"{finger.name}_phalanx1")
-        assert first.xpos - base == pytest.approx(np.zeros(3), abs=EXACT)
+    assert_there({tip: data.site(tip).xpos for tip in TIPS})
 
 
 @pytest.mark.usefixtures("registered")
