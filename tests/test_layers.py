@@ -53,6 +53,7 @@ LAYERS = (
     "wrap",
     "perch",
     "poses",
+    "adjacency",
     "srdf",
     "mesh",
     "bundle",
