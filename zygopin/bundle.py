@@ -5,20 +5,27 @@ from __future__ import annotations
 from pathlib import Path
 
 from zygopin.description import to_urdf
-from zygopin.files import write_text
+from zygopin.files import write_bytes, write_text
 from zygopin.foot import Foot
+from zygopin.mesh import to_glb
 from zygopin.srdf import to_srdf
 
 
-def write_description(foot: Foot, folder: Path | str) -> tuple[Path, ...]:
-    """Write foot.urdf, foot_tendon.urdf and foot.srdf, ready to load elsewhere.
+def write_description(
+    foot: Foot, folder: Path | str, *, glb: bool = False
+) -> tuple[Path, ...]:
+    """Write the URDF and the SRDF of both variants, ready to load elsewhere.
+
+    foot.urdf and foot.srdf; foot_tendon.urdf and foot_tendon.srdf, where one leader
+    joint moves all others.
 
     Args:
         foot: The foot.
         folder: Where to; created if it is missing.
+        glb: Whether to add foot.glb, the straight foot as `to_glb` makes it.
 
     Returns:
-        The three files.
+        The files.
 
     Raises:
         DescriptionError: The template is missing or does not expand.
@@ -28,5 +35,10 @@ def write_description(foot: Foot, folder: Path | str) -> tuple[Path, ...]:
         "foot.urdf": to_urdf(foot),
         "foot_tendon.urdf": to_urdf(foot, tendon=True),
         "foot.srdf": to_srdf(foot),
+        "foot_tendon.srdf": to_srdf(foot, tendon=True),
     }
-    return tuple(write_text(Path(folder) / name, text) for name, text in texts.items())
+    meshes = {"foot.glb": to_glb(foot)} if glb else {}
+    return (
+        *(write_text(Path(folder) / name, text) for name, text in texts.items()),
+        *(write_bytes(Path(folder) / name, mesh) for name, mesh in meshes.items()),
+    )
