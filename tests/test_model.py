@@ -160,7 +160,7 @@ def test_lengths_scale_with_the_foot():
 
 
 def test_the_mass_is_that_of_the_links(parrot):
-    # Σ of density·(π r²ℓ + 4π r³/3) over the phalanges, and of its second part over tips.
+    # Σ of density·(π r²ℓ + 4π r³/3) over the phalanges, its second part over tips.
     balls = 4 / 3 * PARROT.radii**3
     tips = balls[[part.stop - 1 for part in PARROT.finger_slices.values()]]
     volume = (PARROT.radii**2 * PARROT.lengths + balls).sum() + tips.sum()
