@@ -102,6 +102,20 @@ def test_a_missing_mimic_is_noticed(tmp_path):
     assert mimic(TOOL["urchin"], TENDON, answer).startswith("wrong: the followers")
 
 
+@pytest.mark.parametrize(("moment", "refused"), [(0.99e-14, True), (1.01e-14, False)])
+def test_mujoco_refuses_the_moment_of_inertia_that_its_row_names(
+    tmp_path, moment, refused
+):
+    tip = OWL.case.urdf.partition('<link name="finger1_tip">')[2].partition("</link>")[
+        0
+    ]
+    smaller = re.sub('(i..)="[^0"][^"]*"', rf'\1="{moment}"', tip)
+    case = dataclasses.replace(OWL.case, urdf=OWL.case.urdf.replace(tip, smaller))
+    outcome = ask(TOOL["mujoco"], write_questions([case], tmp_path))
+    answer = present(TOOL["mujoco"], outcome)["owl"]
+    assert ("inertia" in answer.get("error", "")) == refused
+
+
 @pytest.mark.parametrize(
     ("value", "too_large"),
     [(0.0, False), (1e-9, False), (2e-9, True), (math.inf, True), (math.nan, True)],

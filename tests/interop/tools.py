@@ -168,6 +168,14 @@ TOOLS = (
         "roboticstoolbox-python",
         "not read",
     ),
+    Tool("dartpy", "DART (dartpy)", "dartpy", "as constraint"),
+    Tool(
+        "klampt",
+        "Klampt",
+        "klampt",
+        "honoured",
+        notes=("By its drivers; a whole configuration moves each joint for itself.",),
+    ),
     Tool(
         "idyntree",
         "iDynTree",

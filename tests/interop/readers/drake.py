@@ -11,6 +11,11 @@ from pydrake.multibody.plant import (
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder
 
+from readers.settled import mimics_seen
+
+SETTLED = 0.1
+"""Seconds that a simulation takes to settle."""
+
 
 class Robot:
     def __init__(self, case):
@@ -71,22 +76,13 @@ class Robot:
         return [self.plant.get_body(index).name() for index in indices]
 
     def constraints(self):
-        """Drake does not show its coupler constraints: what they do, over a second.
-
-        A line through two places to which each follower is drawn by the leader.
-        """
+        """Drake does not show its coupler constraints: what they do in a simulation."""
         if self.plant.num_constraints() == 0:
             return {}
-        (near, one), (far, two) = map(self._settled, (0.1, 0.3))
-        slopes = {name: (two[name] - one[name]) / (far - near) for name in one}
-        leader = self.case["leader"]
-        return {
-            name: (leader, slope, one[name] - slope * near)
-            for name, slope in slopes.items()
-        }
+        return mimics_seen(self.case["leader"], self._settled)
 
     def _settled(self, angle):
-        """Angles of the leader, and of the others, once the constraints have acted."""
+        """Angles of the followers once the constraints have acted."""
         plant = MultibodyPlant(time_step=1e-3)  # without shapes, so without contacts
         Parser(plant).AddModels(self.case["urdf"])
         foot = plant.GetFrameByName(self.case["base"])
@@ -98,9 +94,9 @@ class Robot:
         context = simulator.get_mutable_context()
         leader.set_angle(context, angle)
         leader.Lock(context)
-        simulator.AdvanceTo(1.0)
+        simulator.AdvanceTo(SETTLED)
         joints = map(plant.GetJointByName, self.case["followers"])
-        return angle, {joint.name(): joint.get_angle(context) for joint in joints}
+        return {joint.name(): joint.get_angle(context) for joint in joints}
 
     def distances(self, angles, pairs):
         self._move(angles)

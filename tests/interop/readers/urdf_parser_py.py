@@ -4,44 +4,26 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 from urdf_parser_py.urdf import URDF
 
+from readers.parsed import Parsed
 
-class Robot:
+
+class Robot(Parsed):
     def __init__(self, case):
         self.case = case
-        self.urdf = URDF.from_xml_file(case["urdf"])
+        self.elements = URDF.from_xml_file(case["urdf"])
 
     def poses(self, angles):
         return {tip: self._pose(tip, angles) for tip in self.case["tips"]}
 
     def _pose(self, link, angles):
         pose = np.eye(4)
-        for name in self.urdf.get_chain(self.case["base"], link, links=False):
-            joint = self.urdf.joint_map[name]
+        for name in self.elements.get_chain(self.case["base"], link, links=False):
+            joint = self.elements.joint_map[name]
             pose = pose @ matrix(Rotation.from_euler("xyz", joint.origin.rpy), joint)
             if joint.type != "fixed":
                 turn = np.multiply(joint.axis, angles.get(name, 0.0))
                 pose[:3, :3] @= Rotation.from_rotvec(turn).as_matrix()
         return pose
-
-    def mass(self):
-        return sum(link.inertial.mass for link in self.urdf.links)
-
-    def limits(self):
-        return {
-            joint.name: (joint.limit.lower, joint.limit.upper)
-            for joint in self.urdf.joints
-            if joint.type == "revolute"
-        }
-
-    def shapes(self):
-        return sum(len(link.collisions) for link in self.urdf.links)
-
-    def mimics(self):
-        return {
-            joint.name: (joint.mimic.joint, joint.mimic.multiplier, joint.mimic.offset)
-            for joint in self.urdf.joints
-            if joint.mimic is not None
-        }
 
 
 def matrix(rotation, joint):

@@ -1,14 +1,16 @@
 """yourdfpy; trimesh's collision manager measures the meshes that it makes."""
 
 import numpy as np
-import trimesh
+import trimesh.collision
 import yourdfpy
+
+from readers.parsed import Parsed
 
 SECTIONS = 32
 """Sides of a cylinder in trimesh, unless told otherwise."""
 
 
-class Robot:
+class Robot(Parsed):
     def __init__(self, case):
         self.case, self.managers = case, {}
         self.urdf = yourdfpy.URDF.load(
@@ -16,24 +18,12 @@ class Robot:
             build_collision_scene_graph=True,
             load_collision_meshes=True,
         )
+        self.elements = self.urdf.robot
 
     def poses(self, angles):
         known = self.urdf.actuated_joint_names
         self.urdf.update_cfg({name: angles.get(name, 0.0) for name in known})
         return {tip: self.urdf.get_transform(tip, "foot") for tip in self.case["tips"]}
-
-    def mass(self):
-        return sum(link.inertial.mass for link in self.urdf.link_map.values())
-
-    def limits(self):
-        return {
-            name: (joint.limit.lower, joint.limit.upper)
-            for name, joint in self.urdf.joint_map.items()
-            if joint.type == "revolute"
-        }
-
-    def shapes(self):
-        return sum(len(link.collisions) for link in self.urdf.link_map.values())
 
     def distances(self, angles, pairs):
         """trimesh's, between the meshes that yourdfpy makes, one for each link."""
@@ -64,10 +54,3 @@ class Robot:
                 **sizes, sections=SECTIONS, transform=place
             )
         return self.urdf.collision_scene.geometry[f"{link}_rod"]
-
-    def mimics(self):
-        return {
-            name: (joint.mimic.joint, joint.mimic.multiplier, joint.mimic.offset)
-            for name, joint in self.urdf.joint_map.items()
-            if joint.mimic is not None
-        }
