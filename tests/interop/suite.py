@@ -68,25 +68,32 @@ def ask(tool: Tool, questions: Path) -> Outcome:
         return Outcome({}, missing=f"{tool.package} is not installed")
     file = questions.with_name(f"{tool.reader}.json")
     command = [sys.executable, str(HERE / "run.py"), tool.reader, questions, file]
+    try:
+        status, text = _run(command, questions.with_name(f"{tool.reader}.log"))
+    except subprocess.TimeoutExpired:
+        return Outcome({}, failure=f"no answer in {TIME_LIMIT} s")
+    if status:
+        last = text.strip().splitlines()[-3:]
+        return Outcome({}, failure=f"exit status {status}: {last}")
+    answers = json.loads(file.read_text())
+    missing = answers.pop("import", "")
+    return Outcome(answers, missing=missing, said=digest(text))
+
+
+def _run(command: list, log: Path) -> tuple[int, str]:
+    """The exit status of a command, and all that it printed."""
     environment = {**os.environ, "OMP_NUM_THREADS": "1"}
     environment.pop("PYTHONWARNINGS", None)  # warnings as users see them
-    with questions.with_name(f"{tool.reader}.log").open("w+b") as log:
+    with log.open("w+b") as output:
         done = subprocess.run(
             command,
             stdin=subprocess.DEVNULL,
-            stdout=log,
+            stdout=output,
             stderr=subprocess.STDOUT,
             env=environment,
             timeout=TIME_LIMIT,
         )
-        log.seek(0)
-        text = log.read().decode(errors="replace")
-    if done.returncode:
-        last = text.strip().splitlines()[-3:]
-        return Outcome({}, failure=f"exit status {done.returncode}: {last}")
-    answers = json.loads(file.read_text())
-    missing = answers.pop("import", "")
-    return Outcome(answers, missing=missing, said=digest(text))
+    return done.returncode, log.read_text(errors="replace")
 
 
 def digest(text: str) -> tuple[str, ...]:

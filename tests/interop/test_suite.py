@@ -7,6 +7,7 @@ import math
 import re
 
 import pytest
+import suite
 from cases import make_case, random_foot
 from compare import Difference, differences, mimic
 from reference import Reference
@@ -149,6 +150,12 @@ def test_a_tool_that_dies_is_reported_by_how_it_ended(tmp_path):
     assert outcome.failure.startswith("exit status 1")
     with pytest.raises(AssertionError, match="yourdfpy: exit status 1"):
         present(TOOL["yourdfpy"], outcome)
+
+
+def test_a_tool_that_hangs_is_reported(tmp_path, monkeypatch):
+    monkeypatch.setattr(suite, "TIME_LIMIT", 0.01)
+    outcome = ask(TOOL["urchin"], write_questions([OWL.case], tmp_path))
+    assert outcome.failure == "no answer in 0.01 s"
 
 
 @pytest.mark.parametrize(

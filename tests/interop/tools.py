@@ -88,7 +88,7 @@ MESHED = 2e-3
 radius thinner in the middle of a side."""
 
 NO_BASE = "Total mass and centre of mass leave out the fixed base."
-PASSED_OVER = "Prints a line for each element or attribute that it passes over."
+UNKNOWN = "Prints a line for each element or attribute that it does not know."
 
 TOOLS = (
     Tool(
@@ -97,7 +97,11 @@ TOOLS = (
         "pin",
         "honoured",
         weighs_base=False,
-        notes=("Held against the closed form.", "With `mimic=True`.", NO_BASE),
+        notes=(
+            "Held against the closed form.",
+            "Reads mimic with `mimic=True`, else not.",
+            NO_BASE,
+        ),
     ),
     Tool(
         "mujoco",
@@ -115,7 +119,7 @@ TOOLS = (
         "drake",
         "as constraint",
         gap=ABSOLUTE,
-        notes=("Distances near cylinders are off by up to 3e-5 m.",),
+        notes=("Its distances near cylinders are off by up to 3e-5 m.",),
     ),
     Tool(
         "pybullet",
@@ -158,7 +162,7 @@ TOOLS = (
         "viser (ViserUrdf)",
         "viser",
         "honoured",
-        notes=("The frames that it shows, multiplied.",),
+        notes=("The frames that it shows, multiplied here.",),
     ),
     Tool("urchin", "urchin", "urchin", "honoured"),
     Tool("skrobot", "scikit-robot", "scikit-robot", "honoured"),
@@ -174,7 +178,10 @@ TOOLS = (
         "Klampt",
         "klampt",
         "honoured",
-        notes=("By its drivers; a whole configuration moves each joint for itself.",),
+        notes=(
+            "Mimic by its drivers; `setConfig` moves each joint for itself.",
+            UNKNOWN,
+        ),
     ),
     Tool(
         "idyntree",
@@ -193,20 +200,20 @@ TOOLS = (
             "Warns of each fixed link.",
         ),
     ),
-    Tool("kinpy", "kinpy", "kinpy", "not read", notes=(PASSED_OVER,)),
+    Tool("kinpy", "kinpy", "kinpy", "not read", notes=(UNKNOWN,)),
     Tool(
         "pytorch_kinematics",
         "pytorch-kinematics",
         "pytorch-kinematics",
         "not read",
         precision=SINGLE,  # its urdf.py makes float32 tensors of the origins' rpy
-        notes=("Reads the origins' rotations in single precision.", PASSED_OVER),
+        notes=("Reads the origins' rotations in single precision.", UNKNOWN),
     ),
     Tool(
         "urdf_parser_py",
         "urdf_parser_py",
         "urdf-parser-py",
         "ignored",
-        notes=("A parser: its origins and axes, multiplied.", PASSED_OVER),
+        notes=("A parser: its origins and axes, multiplied here.", UNKNOWN),
     ),
 )
