@@ -1,0 +1,1 @@
+"""One module for each tool: a class `Robot` that answers for one file."""
