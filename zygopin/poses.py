@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from itertools import chain
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from zygopin import names
 from zygopin.branch import Branch
 from zygopin.foot import Foot
-from zygopin.perch import plan_perch
+from zygopin.perch import PerchPlan, plan_perch
 
 PERCH_RADIUS = 0.25
 """Radius of the branch that the pose `perch` is for, over the foot's size."""
@@ -37,7 +38,7 @@ def named_poses(foot: Foot) -> dict[str, dict[str, float]]:
     turning = [*filter(names.is_reversible, foot.fingers)]
     ahead = {names.reversal_joint(finger): finger.reversal for finger in turning}
     poses = {"rest": still, "closed": still | dict.fromkeys(joints, foot.omega)}
-    plan = plan_perch(foot, standard_branch(foot), find_height=True)
+    plan = standard_perch(foot)
     if plan.grasping:
         angles = np.round(foot.omega * plan.controls, ANGLE_DIGITS)
         within = np.minimum(angles, foot.omega).tolist()
@@ -58,3 +59,16 @@ def standard_branch(foot: Foot) -> Branch:
     """
     radius = PERCH_RADIUS * foot.size
     return Branch(radius=radius, centre=(0.0, 0.0, -2 * radius))
+
+
+@lru_cache(maxsize=16)
+def standard_perch(foot: Foot) -> PerchPlan:
+    """The plan that the pose `perch` is from; kept, for several formats ask for it.
+
+    Args:
+        foot: The foot.
+
+    Returns:
+        What `plan_perch` finds on the standard branch, with that branch's height.
+    """
+    return plan_perch(foot, standard_branch(foot), find_height=True)

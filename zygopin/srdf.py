@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from itertools import combinations, pairwise
 from xml.etree import ElementTree as ET
 
 from zygopin import names
-from zygopin.finger import Finger
+from zygopin.adjacency import touching_links
 from zygopin.foot import Foot
 from zygopin.poses import named_poses
 
@@ -33,7 +32,7 @@ def to_srdf(foot: Foot) -> str:
         state = ET.SubElement(root, "group_state", name=pose, group=whole)
         for joint, angle in angles.items():
             ET.SubElement(state, "joint", name=joint, value=repr(angle))
-    for (link1, link2), reason in _touching_links(foot).items():
+    for (link1, link2), reason in touching_links(foot).items():
         pair = {"link1": link1, "link2": link2, "reason": reason}
         ET.SubElement(root, "disable_collisions", pair)
     ET.indent(root)
@@ -54,24 +53,3 @@ def _add_groups(root: ET.Element, foot: Foot) -> str:
     for finger in foot.fingers:
         ET.SubElement(group, "group", name=finger.name)
     return whole
-
-
-def _touching_links(foot: Foot) -> dict[tuple[str, str], str]:
-    """Pairs of links that touch by construction, and why.
-
-    Neighbours in a chain share a junction, and so do all first phalanges, whatever
-    the pose; a fingertip is a frame at the end of its phalanx.
-    """
-    pairs: dict[tuple[str, str], str] = {}
-    for finger in foot.fingers:
-        pairs |= dict.fromkeys(pairwise(_chain(finger)), "Adjacent")
-        pairs.setdefault((names.BASE, names.phalanx_links(finger)[0]), "Always")
-    first = [names.phalanx_links(finger)[0] for finger in foot.fingers]
-    return pairs | dict.fromkeys(combinations(first, 2), "Always")
-
-
-def _chain(finger: Finger) -> tuple[str, ...]:
-    """Links of a finger from the foot's base to the tip."""
-    between = (names.turning_link(finger),) * names.is_reversible(finger)
-    tip = names.tip_link(finger)
-    return (names.BASE, *between, *names.phalanx_links(finger), tip)
