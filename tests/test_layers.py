@@ -60,6 +60,7 @@ LAYERS = (
     "simulated",
     "mjcf_bodies",
     "mjcf",
+    "mjcf_scene",
     "bundle",
     "motion",
     "closing",

@@ -7,21 +7,28 @@ from pathlib import Path
 from zygopin.description import to_urdf
 from zygopin.files import write_text
 from zygopin.foot import Foot
+from zygopin.mjcf import to_mjcf
+from zygopin.mjcf_scene import to_mjcf_scene
 from zygopin.srdf import to_srdf
 
 
-def write_description(foot: Foot, folder: Path | str) -> tuple[Path, ...]:
+def write_description(
+    foot: Foot, folder: Path | str, *, mjcf: bool = False
+) -> tuple[Path, ...]:
     """Write foot.urdf, foot_tendon.urdf and foot.srdf, ready to load elsewhere.
 
     Args:
         foot: The foot.
         folder: Where to; created if it is missing.
+        mjcf: Whether to write the MuJoCo models foot.xml and foot_tendon.xml as well,
+            and scene.xml, which puts the latter above its perch.
 
     Returns:
-        The three files.
+        The files.
 
     Raises:
-        DescriptionError: The template is missing or does not expand.
+        DescriptionError: The template is missing or does not expand, or a phalanx is
+            too light for MuJoCo.
         FileError: The folder cannot be written.
     """
     texts = {
@@ -29,4 +36,8 @@ def write_description(foot: Foot, folder: Path | str) -> tuple[Path, ...]:
         "foot_tendon.urdf": to_urdf(foot, tendon=True),
         "foot.srdf": to_srdf(foot),
     }
+    if mjcf:
+        texts["foot.xml"] = to_mjcf(foot)
+        texts["foot_tendon.xml"] = to_mjcf(foot, tendon=True)
+        texts["scene.xml"] = to_mjcf_scene(foot, "foot_tendon.xml")
     return tuple(write_text(Path(folder) / name, text) for name, text in texts.items())

@@ -58,12 +58,16 @@ main.add_command(strike)
     type=click.Path(path_type=Path),
     help="Folder to write to.",
 )
+@click.option("--mjcf", is_flag=True, help="Write MuJoCo models as well.")
 @_JSON
-def urdf(output: Path, as_json: bool, **foot: Any) -> None:
-    """Write foot.urdf, foot_tendon.urdf and foot.srdf."""
+def urdf(output: Path, mjcf: bool, as_json: bool, **foot: Any) -> None:
+    """Write foot.urdf, foot_tendon.urdf and foot.srdf.
+
+    With --mjcf also foot.xml, foot_tendon.xml and scene.xml, for MuJoCo.
+    """
     from zygopin.bundle import write_description
 
-    paths = write_description(make_foot(**foot), output)
+    paths = write_description(make_foot(**foot), output, mjcf=mjcf)
     if as_json:
         click.echo(json.dumps({"files": [str(path) for path in paths]}, indent=2))
         return
