@@ -6,7 +6,7 @@ from xml.etree import ElementTree as ET
 
 from zygopin.foot import Foot
 from zygopin.mjcf_bodies import brief
-from zygopin.poses import standard_perch
+from zygopin.poses import PERCH_RADIUS, standard_perch
 
 PERCH_LENGTH = 4.0
 """Length of the perch over the foot's size."""
@@ -42,8 +42,7 @@ def to_mjcf_scene(foot: Foot, model: str) -> str:
     ET.SubElement(view, "global", azimuth="130", elevation="-15")
     _add_materials(ET.SubElement(root, "asset"), foot)
     world = ET.SubElement(root, "worldbody")
-    above = {"pos": brief(0, 0, 5 * foot.size), "dir": "0 0 -1", "type": "directional"}
-    ET.SubElement(world, "light", above)
+    ET.SubElement(world, "light", pos=brief(0, 0, 5 * foot.size), dir="0 0 -1")
     ground = {"pos": brief(0, 0, -FLOOR * foot.size), "material": "floor"}
     tiles = brief(0, 0, foot.size)
     ET.SubElement(
@@ -74,5 +73,6 @@ def _add_perch(world: ET.Element, foot: Foot) -> None:
     branch = plan.branch
     half = PERCH_LENGTH / 2 * foot.size * branch.axis
     ends = brief(*(branch.centre - half), *(branch.centre + half))
-    shape = {"fromto": ends, "size": brief(branch.radius), "material": "wood"}
+    size = brief(PERCH_RADIUS * foot.size)
+    shape = {"fromto": ends, "size": size, "material": "wood"}
     ET.SubElement(world, "geom", {"name": "perch", "type": "capsule"} | shape)
