@@ -11,14 +11,21 @@ import numpy as np
 from zygopin.dynamics import characteristic_time
 from zygopin.foot import Foot
 from zygopin.mjcf import to_mjcf
+from zygopin.paths import PACKAGE_PATH
 from zygopin.poses import standard_branch
 
 written = cache(to_mjcf)
 
 
-def loaded(name, **options):
-    """A preset's model and data, at rest."""
-    model = mujoco.MjModel.from_xml_string(written(Foot.preset(name), **options))
+def expanded(name, variant=""):
+    """A preset's model as it is shipped, which needs no planning of its perch."""
+    path = PACKAGE_PATH / "expanded" / f"{name}{variant}.xml"
+    return mujoco.MjModel.from_xml_path(str(path))
+
+
+def loaded(name, *, tendon=False):
+    """A preset's shipped model and data, at rest."""
+    model = expanded(name, "_tendon" if tendon else "")
     return model, mujoco.MjData(model)
 
 

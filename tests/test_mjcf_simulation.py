@@ -24,10 +24,15 @@ from zygopin.presets import preset_names
 
 mujoco = pytest.importorskip("mujoco", reason="the models are text without it")
 
-from simulations import drop, loaded, run, warnings_of, written  # noqa: E402
+from simulations import drop, expanded, loaded, run, warnings_of, written  # noqa: E402
 
 BOTH = pytest.mark.parametrize("tendon", [False, True], ids=["servos", "tendon"])
 EVERY = pytest.mark.parametrize("name", preset_names())
+
+
+def no_poses(foot):  # noqa: ARG001
+    """In place of named_poses: to plan a perch takes a second."""
+    return {}
 
 
 def some_angles(model, seed=5):
@@ -121,11 +126,12 @@ def test_all_frames_are_pinocchios_with_toes_turned(name):
 
 
 @EVERY
-def test_mujocos_own_reading_of_the_urdf_agrees(name):
+def test_mujocos_own_reading_of_the_urdf_agrees(name, monkeypatch):
     # It fuses what is fixed: tips with their phalanges, but the base with the world.
     # Thrice as large, as it refuses a URDF's link with an inertia below 1e-14 kg m^2.
     foot = Foot.preset(name)
     foot = foot.replace(scale=3 * foot.scale, thickness=3 * foot.thickness)
+    monkeypatch.setattr(keyframes, "named_poses", no_poses)
     theirs = mujoco.MjModel.from_xml_string(to_urdf(foot))
     ours = mujoco.MjModel.from_xml_string(to_mjcf(foot))
     assert theirs.nbody == ours.nbody - 1
@@ -149,7 +155,7 @@ def test_mujocos_own_reading_of_the_urdf_agrees(name):
 def test_a_capsule_weighs_what_its_volume_does(name):
     # The inertials are the URDF's; MuJoCo can also infer them from shape and density.
     foot = Foot.preset(name)
-    spec = mujoco.MjSpec.from_string(written(foot))
+    spec = mujoco.MjSpec.from_file(str(PACKAGE_PATH / "expanded" / f"{name}.xml"))
     spec.compiler.inertiafromgeom = mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_TRUE
     for geom in spec.geoms:
         geom.density = foot.density
@@ -178,8 +184,7 @@ def test_no_keyframe_starts_in_contact(name, tendon):
 
 @pytest.mark.parametrize("name", ["parrot", "owl", "anisodactyl"])
 def test_mujoco_touches_the_perch_where_the_planner_says(name):
-    path = PACKAGE_PATH / "expanded" / f"{name}_scene.xml"
-    model = mujoco.MjModel.from_xml_path(str(path))
+    model = expanded(name, "_scene")
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, model.key("perch").id)
     perch = model.geom("perch").id
@@ -267,7 +272,9 @@ def test_toes_pressed_against_each_other_stay_sound(name, tendon):
 
 
 def test_a_free_foot_falls_as_everything_does():
-    model, data = loaded("parrot", tendon=True, free=True)
+    text = written(Foot.preset("parrot"), tendon=True, free=True)
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, model.key("perch").id)
     for _ in range(200):
         mujoco.mj_step(model, data)
@@ -337,7 +344,7 @@ def test_mujoco_takes_what_is_just_heavy_enough_and_no_less(monkeypatch):
         small = foot.replace(scale=factor * 0.011, thickness=factor * 0.0018)
         return to_mjcf(small)
 
-    monkeypatch.setattr(keyframes, "named_poses", lambda _: {})
+    monkeypatch.setattr(keyframes, "named_poses", no_poses)
     mujoco.MjModel.from_xml_string(shrunk(0.195))
     with pytest.raises(DescriptionError, match="finger4_phalanx5 is too light"):
         shrunk(0.19)
@@ -350,7 +357,7 @@ def test_mujoco_takes_what_is_just_heavy_enough_and_no_less(monkeypatch):
 @given(feet())
 def test_any_foot_compiles_and_steps(foot):
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(keyframes, "named_poses", lambda _: {})  # planning takes a second
+        patch.setattr(keyframes, "named_poses", no_poses)
         try:
             text = to_mjcf(foot, tendon=len(foot.fingers) % 2 == 0, free=True)
         except DescriptionError:
