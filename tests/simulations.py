@@ -8,7 +8,7 @@ from functools import cache
 import mujoco
 import numpy as np
 
-from zygopin.dynamics import characteristic_time
+from zygopin.dynamics import GRAVITY, characteristic_time
 from zygopin.foot import Foot
 from zygopin.mjcf import to_mjcf
 from zygopin.paths import PACKAGE_PATH
@@ -103,6 +103,34 @@ def drop(name, *, height=0.25, periods=20.0):
         drift=float(drift) / foot.size,
         warnings=warnings_of(data),
     )
+
+
+def pull(name, direction, weights, *, periods=20.0):
+    """How far a pull moves the base of a foot that has closed on a perch.
+
+    Args:
+        name: A preset.
+        direction: Where to, shape (3,).
+        weights: The pull at its end over the foot's weight; it grows from none.
+        periods: How long the pull takes, over the characteristic time.
+
+    Returns:
+        The distance over the foot's size.
+    """
+    foot = Foot.preset(name)
+    model = _over_perch(foot)
+    data = mujoco.MjData(model)
+    data.qpos[2] = 1.5 * model.geom("foot").size[0]
+    data.actuator("flexor").ctrl = foot.omega
+    steps = round(periods * characteristic_time(foot) / model.opt.timestep)
+    for _ in range(steps):
+        mujoco.mj_step(model, data)
+    start = data.qpos[:3].copy()
+    force = weights * GRAVITY * model.body_subtreemass[0] * np.asarray(direction)
+    for step in range(steps):
+        data.body("foot").xfrc_applied[:3] = force * (step + 1) / steps
+        mujoco.mj_step(model, data)
+    return float(np.linalg.norm(data.qpos[:3] - start)) / foot.size
 
 
 def _over_perch(foot):

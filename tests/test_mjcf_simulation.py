@@ -12,7 +12,7 @@ from strategies import feet
 
 from zygopin import keyframes, mjcf
 from zygopin.description import to_urdf
-from zygopin.dynamics import characteristic_time
+from zygopin.dynamics import GRAVITY, GRIP, characteristic_time
 from zygopin.errors import DescriptionError
 from zygopin.foot import Foot
 from zygopin.kinematics import forward_kinematics
@@ -24,7 +24,7 @@ from zygopin.presets import preset_names
 
 mujoco = pytest.importorskip("mujoco", reason="the models are text without it")
 
-from simulations import drop, expanded, loaded, run, warnings_of, written  # noqa: E402
+from simulations import drop, expanded, loaded, pull, run, warnings_of, written  # noqa: E402
 
 BOTH = pytest.mark.parametrize("tendon", [False, True], ids=["servos", "tendon"])
 EVERY = pytest.mark.parametrize("name", preset_names())
@@ -233,7 +233,7 @@ def test_ten_seconds_lose_energy_and_then_nothing_moves(tendon, pose):
     mujoco.mj_resetDataKeyframe(model, data, model.key(pose).id)
     start = data.qpos.copy()
     mujoco.mj_step(model, data)
-    weight = 9.81 * model.body_subtreemass[0] * Foot.preset("parrot").size
+    weight = GRAVITY * model.body_subtreemass[0] * Foot.preset("parrot").size
     first = data.energy.sum()
     assert run(model, data, 10.0) < 1e-9
     assert np.abs(data.energy.sum() - first) < 0.1 * weight
@@ -283,7 +283,7 @@ def test_a_free_foot_falls_as_everything_does():
     height = data.subtree_com[0, 2]
     mujoco.mj_resetDataKeyframe(model, data, model.key("perch").id)
     mujoco.mj_forward(model, data)
-    fall = 9.81 * seconds**2 / 2
+    fall = GRAVITY * seconds**2 / 2
     assert data.subtree_com[0, 2] - height == pytest.approx(fall, rel=0.02)
 
 
@@ -332,6 +332,11 @@ def test_a_dropped_foot_closes_on_the_perch_and_holds(name):
     assert landing.late_penetration < 0.05
     assert landing.closing_speed * characteristic_time(foot) < 3
     assert landing.drift < 0.02
+
+
+@pytest.mark.parametrize("name", ["parrot", "owl", "anisodactyl"])
+def test_a_bird_can_hang_from_one_foot(name):
+    assert pull(name, [0.0, 0.0, 1.0], GRIP) < 0.2  # toes give, but do not let go
 
 
 # Any foot, and the smallest -------------------------------------------------------

@@ -45,7 +45,12 @@ def test_the_wheel_carries_nothing_else(wheel_names):
 
 def test_an_editable_install_reads_the_checkout():
     assert ROOT / "urdf" == zygopin.PACKAGE_PATH
-    for path in (zygopin.URDF_PATH, zygopin.SRDF_PATH, zygopin.XACRO_PATH):
+    for path in (
+        zygopin.URDF_PATH,
+        zygopin.SRDF_PATH,
+        zygopin.MJCF_PATH,
+        zygopin.XACRO_PATH,
+    ):
         assert path.is_file()
 
 

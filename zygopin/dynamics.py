@@ -34,8 +34,8 @@ One foot shall carry the bird, which weighs some fifty times what its phalanges 
 RETURN = 20.0
 """Stiffness of the springs that open a tendon-driven toe, over W·ℓ per radian.
 
-They leave the tendon more than half its strength at a right angle, open the toes within
-a few T, and let them sag by a few hundredths of a radian.
+At one radian they take two fifths of the tendon's strength; they open the toes within a
+few T, and let them sag by a few hundredths of a radian.
 """
 
 FREQUENCY = 16.0
@@ -49,7 +49,7 @@ of this armature feet slip off their perch.
 CLOSING = 0.5
 """Time in which the full torque turns a joint by one radian, over T.
 
-A parrot's foot closes in some forty milliseconds, an owl's in twice as many.
+A parrot's foot closes by a right angle in some 40 ms, an owl's in 80 ms.
 """
 
 STEPS = 100

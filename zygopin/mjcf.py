@@ -39,7 +39,7 @@ ROLLING = 0.02
 CONTACT_STEPS = 3
 """Time constant of contacts and limits, in time steps; MuJoCo asks for two at least.
 
-With its default of 20 ms a small toe sinks right through the perch that it holds.
+With its default of 20 ms a small toe sinks deeper into its perch than it is thick.
 """
 
 IMPEDANCE = (0.99, 0.999)
