@@ -14,7 +14,7 @@ from zygopin import keyframes, mjcf
 from zygopin.description import to_urdf
 from zygopin.dynamics import GRAVITY, GRIP, characteristic_time
 from zygopin.errors import DescriptionError
-from zygopin.foot import Foot
+from zygopin.foot import Finger, Foot
 from zygopin.kinematics import forward_kinematics
 from zygopin.mjcf import to_mjcf
 from zygopin.names import flexion_joints, tip_link
@@ -287,8 +287,8 @@ def test_a_free_foot_falls_as_everything_does():
     assert data.subtree_com[0, 2] - height == pytest.approx(fall, rel=0.02)
 
 
-def test_a_foot_is_attached_to_a_wrist_with_everything_it_has():
-    foot = Foot.preset("owl")
+def attached(text):
+    """A wrist with a model mounted 0.98 m above the world's origin."""
     parent = mujoco.MjSpec()
     wrist = parent.worldbody.add_body(name="wrist", pos=[0.0, 0.0, 1.0])
     wrist.add_freejoint()
@@ -296,9 +296,29 @@ def test_a_foot_is_attached_to_a_wrist_with_everything_it_has():
     mount = wrist.add_site(name="mount", pos=[0.0, 0.0, -0.02])
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the parent keeps its own time step
-        child = mujoco.MjSpec.from_string(written(foot, tendon=True))
+        child = mujoco.MjSpec.from_string(text)
         parent.attach(child, prefix="left_", site=mount)
-        model = parent.compile()
+        return parent.compile()
+
+
+def test_a_toe_with_an_orientation_points_where_it_should(monkeypatch):
+    monkeypatch.setattr(keyframes, "named_poses", no_poses)
+    toe = Finger("toe", 2, azimuth=1.0, orientation=0.4)
+    foot = Foot(scale=0.1, thickness=0.01, fingers=(toe,))
+    text = to_mjcf(foot)
+    _, (_, tip) = forward_kinematics(foot, np.zeros(2))
+    for model, site, origin in (
+        (mujoco.MjModel.from_xml_string(text), "toe_tip", 0.0),
+        (attached(text), "left_toe_tip", 0.98),
+    ):
+        data = mujoco.MjData(model)
+        mujoco.mj_forward(model, data)
+        place = data.site(site).xpos - [0, 0, origin]
+        assert place == pytest.approx(tip, abs=1e-12)
+
+
+def test_a_foot_is_attached_to_a_wrist_with_everything_it_has():
+    model = attached((PACKAGE_PATH / "expanded" / "owl_tendon.xml").read_text())
     alone, alone_data = loaded("owl", tendon=True)
     mujoco.mj_forward(alone, alone_data)
     data = mujoco.MjData(model)
@@ -309,6 +329,8 @@ def test_a_foot_is_attached_to_a_wrist_with_everything_it_has():
     assert model.tendon(0).name == "left_flexor"
     assert {model.key(i).name for i in range(model.nkey)} >= {"left_rest", "left_perch"}
     assert model.nexclude == alone.nexclude
+    for joint in map(alone.joint, range(alone.njnt)):
+        assert np.array_equal(model.joint(f"left_{joint.name}").range, joint.range)
 
 
 # The drop -------------------------------------------------------------------------
