@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
-
 import numpy as np
 import pinocchio as pin
 import pytest
@@ -294,11 +292,11 @@ def attached(text):
     wrist.add_freejoint()
     wrist.add_geom(size=[0.01, 0.0, 0.0])
     mount = wrist.add_site(name="mount", pos=[0.0, 0.0, -0.02])
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # the parent keeps its own time step
-        child = mujoco.MjSpec.from_string(text)
-        parent.attach(child, prefix="left_", site=mount)
-        return parent.compile()
+    child = mujoco.MjSpec.from_string(text)
+    for option in ("timestep", "integrator", "cone", "impratio"):  # else: a warning
+        setattr(parent.option, option, getattr(child.option, option))
+    parent.attach(child, prefix="left_", site=mount)
+    return parent.compile()
 
 
 def test_a_toe_with_an_orientation_points_where_it_should(monkeypatch):
