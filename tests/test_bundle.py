@@ -12,16 +12,20 @@ from zygopin.mjcf import to_mjcf
 from zygopin.srdf import to_srdf
 
 
-def test_write_description_writes_three_files(tmp_path):
+def test_write_description_writes_a_urdf_and_an_srdf_of_each_variant(tmp_path):
     foot = Foot.preset("owl")
     files = write_description(foot, tmp_path / "new" / "folder")
     assert [file.name for file in files] == [
         "foot.urdf",
         "foot_tendon.urdf",
         "foot.srdf",
+        "foot_tendon.srdf",
     ]
     texts = [file.read_bytes().decode() for file in files]
-    assert texts == [to_urdf(foot), to_urdf(foot, tendon=True), to_srdf(foot)]
+    assert texts == [
+        *(to_urdf(foot, tendon=tendon) for tendon in (False, True)),
+        *(to_srdf(foot, tendon=tendon) for tendon in (False, True)),
+    ]
     assert sorted(tmp_path.rglob("*.*")) == sorted(files)
 
 
@@ -29,7 +33,7 @@ def test_mujoco_models_come_with_a_scene_that_includes_one(tmp_path):
     foot = Foot.preset("parrot")
     files = write_description(foot, tmp_path, mjcf=True)
     texts = {file.name: file.read_bytes().decode() for file in files}
-    assert [*texts][3:] == ["foot.xml", "foot_tendon.xml", "scene.xml"]
+    assert [*texts][4:] == ["foot.xml", "foot_tendon.xml", "scene.xml"]
     assert texts["foot.xml"] == to_mjcf(foot)
     assert texts["foot_tendon.xml"] == to_mjcf(foot, tendon=True)
     assert '<include file="foot_tendon.xml" />' in texts["scene.xml"]
@@ -45,6 +49,6 @@ def test_too_light_a_foot_leaves_no_file(tmp_path):
 def test_an_unwritable_folder_is_one_line(tmp_path):
     (tmp_path / "file").write_text("kept")
     with pytest.raises(FileError, match="cannot be written") as caught:
-        write_description(Foot(), tmp_path / "file" / "below")
+        write_description(Foot.preset("parrot"), tmp_path / "file" / "below")
     assert "\n" not in str(caught.value)
     assert (tmp_path / "file").read_text() == "kept"

@@ -252,14 +252,17 @@ def test_a_reader_that_leaves_early_is_no_verdict():
     assert result.stderr == ""
 
 
-def test_urdf_writes_three_files_and_lists_them(tmp_path):
-    result = run("urdf", "--preset", "owl", "-o", str(tmp_path), "--json")
+def test_urdf_writes_its_files_and_lists_them(tmp_path):
+    result = run("urdf", "--preset", "owl", "-o", str(tmp_path), "--glb", "--json")
     assert result.returncode == 0
-    files = [Path(name) for name in json.loads(result.stdout)["files"]]
+    *files, glb = [Path(name) for name in json.loads(result.stdout)["files"]]
+    assert glb.name == "foot.glb"
+    assert glb.read_bytes().startswith(b"glTF")
     assert [file.name for file in files] == [
         "foot.urdf",
         "foot_tendon.urdf",
         "foot.srdf",
+        "foot_tendon.srdf",
     ]
     assert all("finger4_reversal" in file.read_text() for file in files)
 
@@ -268,7 +271,7 @@ def test_urdf_writes_mujoco_models_on_demand(tmp_path):
     result = run("urdf", "--scale-mm", "12", "-o", str(tmp_path), "--mjcf")
     assert result.returncode == 0
     names = [Path(line).name for line in result.stdout.splitlines()]
-    assert names[3:] == ["foot.xml", "foot_tendon.xml", "scene.xml"]
+    assert names[4:] == ["foot.xml", "foot_tendon.xml", "scene.xml"]
 
 
 def test_presets_json_holds_each_number_and_its_source():

@@ -239,6 +239,19 @@ def test_the_mass_of_a_capsule_by_hand():
     assert moments == pytest.approx([23.876104, 133.831847, 133.831847], abs=1e-6)
 
 
+@pytest.mark.parametrize(("name", "grams"), [("parrot", 0.78), ("owl", 16.85)])
+def test_a_foot_weighs_what_its_volume_does(name, grams):
+    foot = Foot.preset(name)
+    balls = 4 / 3 * np.pi * foot.radii**3
+    capsules = np.pi * foot.radii**2 * foot.lengths + balls
+    hinges = 1 + len([f for f in foot.fingers if f.reversed_azimuth is not None])
+    claws = balls[[part.stop - 1 for part in foot.finger_slices.values()]]
+    volume = capsules.sum() + hinges * balls[0] + claws.sum()
+    total = sum(mass for mass, _ in inertials(parsed(foot)).values())
+    assert total == pytest.approx(foot.density * volume, rel=1e-12)
+    assert 1000 * total == pytest.approx(grams, rel=0.01)
+
+
 def test_a_capsule_weighs_what_pinocchio_says():
     foot = Foot.preset("parrot")
     length, radius = foot.lengths[0], foot.radii[0]

@@ -160,11 +160,12 @@ def test_lengths_scale_with_the_foot():
 
 
 def test_the_mass_is_that_of_the_links(parrot):
-    # Σ over the phalanges of density·(π r²ℓ + 4π r³/3), and next to nothing else.
-    volume = PARROT.radii**2 * PARROT.lengths + 4 / 3 * PARROT.radii**3
-    phalanges = PARROT.density * math.pi * volume.sum()
+    # Σ of density·(π r²ℓ + 4π r³/3) over the phalanges, its second part over tips.
+    balls = 4 / 3 * PARROT.radii**3
+    tips = balls[[part.stop - 1 for part in PARROT.finger_slices.values()]]
+    volume = (PARROT.radii**2 * PARROT.lengths + balls).sum() + tips.sum()
     moving = sum(inertia.mass for inertia in parrot.model.inertias[1:])
-    assert phalanges < moving < 1.001 * phalanges
+    assert moving == pytest.approx(PARROT.density * math.pi * volume, rel=1e-12)
 
 
 def test_the_tendon_variant_is_a_urdf_of_the_foot_too(parrot):

@@ -14,7 +14,7 @@ from zygopin.perch import plan_perch
 from zygopin.poses import ANGLE_DIGITS, named_poses, standard_branch
 
 
-def test_a_foot_that_turns_a_toe_has_two_poses_more():
+def test_a_toe_that_turns_is_ahead_where_the_foot_is_spread():
     foot = Foot.preset("owl")
     poses = named_poses(foot)
     assert list(poses) == ["rest", "closed", "perch", "zygodactyl", "spread"]
@@ -28,7 +28,14 @@ def test_a_foot_that_turns_a_toe_has_two_poses_more():
 
 
 def test_a_foot_that_cannot_grasp_has_no_perch():
-    assert list(named_poses(Foot.preset("paper"))) == ["rest", "closed"]
+    straight = ["zygodactyl", "spread"]
+    assert list(named_poses(Foot.preset("paper"))) == ["rest", "closed", *straight]
+
+
+def test_three_toes_ahead_are_not_zygodactyl():
+    poses = named_poses(Foot.preset("anisodactyl"))
+    assert list(poses) == ["rest", "closed", "perch", "spread"]
+    assert poses["spread"] == poses["rest"]
 
 
 @pytest.mark.parametrize("name", ["parrot", "owl", "anisodactyl"])

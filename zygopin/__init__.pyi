@@ -35,6 +35,7 @@ from zygopin.inverse import contains as contains
 from zygopin.inverse import find_word as find_word
 from zygopin.inverse import nearest_reachable as nearest_reachable
 from zygopin.kinematics import forward_kinematics as forward_kinematics
+from zygopin.mesh import to_glb as to_glb
 from zygopin.mjcf import to_mjcf as to_mjcf
 from zygopin.mjcf_scene import to_mjcf_scene as to_mjcf_scene
 from zygopin.model import FootModel as FootModel

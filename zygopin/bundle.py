@@ -5,23 +5,28 @@ from __future__ import annotations
 from pathlib import Path
 
 from zygopin.description import to_urdf
-from zygopin.files import write_text
+from zygopin.files import write_bytes, write_text
 from zygopin.foot import Foot
+from zygopin.mesh import to_glb
 from zygopin.mjcf import to_mjcf
 from zygopin.mjcf_scene import to_mjcf_scene
 from zygopin.srdf import to_srdf
 
 
 def write_description(
-    foot: Foot, folder: Path | str, *, mjcf: bool = False
+    foot: Foot, folder: Path | str, *, mjcf: bool = False, glb: bool = False
 ) -> tuple[Path, ...]:
-    """Write foot.urdf, foot_tendon.urdf and foot.srdf, ready to load elsewhere.
+    """Write the URDF and the SRDF of both variants, ready to load elsewhere.
+
+    foot.urdf and foot.srdf; foot_tendon.urdf and foot_tendon.srdf, where one leader
+    joint moves all others.
 
     Args:
         foot: The foot.
         folder: Where to; created if it is missing.
         mjcf: Whether to write the MuJoCo models foot.xml and foot_tendon.xml as well,
             and scene.xml, which puts the latter above its perch.
+        glb: Whether to add foot.glb, the straight foot as `to_glb` makes it.
 
     Returns:
         The files.
@@ -35,9 +40,14 @@ def write_description(
         "foot.urdf": to_urdf(foot),
         "foot_tendon.urdf": to_urdf(foot, tendon=True),
         "foot.srdf": to_srdf(foot),
+        "foot_tendon.srdf": to_srdf(foot, tendon=True),
     }
     if mjcf:
         texts["foot.xml"] = to_mjcf(foot)
         texts["foot_tendon.xml"] = to_mjcf(foot, tendon=True)
         texts["scene.xml"] = to_mjcf_scene(foot, "foot_tendon.xml")
-    return tuple(write_text(Path(folder) / name, text) for name, text in texts.items())
+    meshes = {"foot.glb": to_glb(foot)} if glb else {}
+    return (
+        *(write_text(Path(folder) / name, text) for name, text in texts.items()),
+        *(write_bytes(Path(folder) / name, mesh) for name, mesh in meshes.items()),
+    )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 from itertools import chain
 
@@ -18,14 +19,18 @@ PERCH_RADIUS = 0.25
 ANGLE_DIGITS = 6
 """Decimals of the perch's angles [rad]: beyond them machines may differ."""
 
+TURNED_POSES = ("zygodactyl", "spread")
+"""Poses that differ only in where the toes that turn point."""
+
 
 def named_poses(foot: Foot) -> dict[str, dict[str, float]]:
     """Poses of a foot by name, each with every joint that moves.
 
     `rest`: straight; `closed`: every flexion joint at omega; `perch`: the grasp that
     `plan_perch` finds on a branch across the foot with a quarter of its size as
-    radius, left out where it finds none; where a toe turns, `zygodactyl` and `spread`:
-    straight, that toe at its azimuth and at its reversed one.
+    radius, left out where it finds none; `spread`: straight, toes that turn at their
+    reversed azimuth; `zygodactyl`, where two toes point forward and two back: straight,
+    all at their own azimuth.
 
     Args:
         foot: The foot.
@@ -43,9 +48,9 @@ def named_poses(foot: Foot) -> dict[str, dict[str, float]]:
         angles = np.round(foot.omega * plan.controls, ANGLE_DIGITS)
         within = np.minimum(angles, foot.omega).tolist()
         poses["perch"] = still | dict(zip(joints, within, strict=True))
-    if turning:
-        poses |= {"zygodactyl": still, "spread": still | ahead}
-    return poses
+    if _is_zygodactyl(foot):
+        poses["zygodactyl"] = still
+    return poses | {"spread": still | ahead}
 
 
 def standard_branch(foot: Foot) -> Branch:
@@ -72,3 +77,9 @@ def standard_perch(foot: Foot) -> PerchPlan:
         What `plan_perch` finds on the standard branch, with that branch's height.
     """
     return plan_perch(foot, standard_branch(foot), find_height=True)
+
+
+def _is_zygodactyl(foot: Foot) -> bool:
+    """Whether two toes point forward and two back."""
+    ahead = [math.cos(finger.azimuth) > 0 for finger in foot.fingers]
+    return ahead.count(True) == ahead.count(False) == 2
