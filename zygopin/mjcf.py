@@ -84,7 +84,8 @@ def to_mjcf(foot: Foot, *, tendon: bool = False, free: bool = False) -> str:
     what the toes sag. But where the URDF's joints mimic their leader rigidly, these
     share one tension: those that meet a branch stop, the others go on, and once the
     toes lie on it the tension rises to the actuator's limit. The tendon pulls only;
-    springs open the toes. A reversal has its own position actuator in both.
+    springs open the toes, and the pose `perch` is held only around its branch. A
+    reversal has its own position actuator in both.
 
     Args:
         foot: The foot.
