@@ -267,6 +267,13 @@ def test_urdf_writes_its_files_and_lists_them(tmp_path):
     assert all("finger4_reversal" in file.read_text() for file in files)
 
 
+def test_urdf_writes_mujoco_models_on_demand(tmp_path):
+    result = run("urdf", "--scale-mm", "12", "-o", str(tmp_path), "--mjcf")
+    assert result.returncode == 0
+    names = [Path(line).name for line in result.stdout.splitlines()]
+    assert names[4:] == ["foot.xml", "foot_tendon.xml", "scene.xml"]
+
+
 def test_presets_json_holds_each_number_and_its_source():
     presets = json.loads(run("presets", "--json").stdout)
     assert set(presets) == {"paper", "paper-figure", "parrot", "owl", "anisodactyl"}

@@ -70,7 +70,12 @@ def test_the_wheel_s_data_is_the_package_as_ros_2_finds_it(wheel, tmp_path):
 
 def test_an_editable_install_reads_the_checkout():
     assert ROOT / "urdf" == zygopin.PACKAGE_PATH
-    for path in (zygopin.URDF_PATH, zygopin.SRDF_PATH, zygopin.XACRO_PATH):
+    for path in (
+        zygopin.URDF_PATH,
+        zygopin.SRDF_PATH,
+        zygopin.MJCF_PATH,
+        zygopin.XACRO_PATH,
+    ):
         assert path.is_file()
 
 

@@ -37,9 +37,18 @@ _HOMES = {
     "kinematics": ("forward_kinematics",),
     "mesh": ("to_glb",),
     "model": ("FootModel",),
+    "mjcf": ("to_mjcf",),
+    "mjcf_scene": ("to_mjcf_scene",),
     "motion": ("Law", "Motion"),
     "obstacle": ("Box", "Capsule", "ConvexMesh", "Sphere"),
-    "paths": ("PACKAGE_PATH", "PRESETS_PATH", "SRDF_PATH", "URDF_PATH", "XACRO_PATH"),
+    "paths": (
+        "MJCF_PATH",
+        "PACKAGE_PATH",
+        "PRESETS_PATH",
+        "SRDF_PATH",
+        "URDF_PATH",
+        "XACRO_PATH",
+    ),
     "perch": ("PerchPlan", "plan_perch"),
     "poses": ("named_poses",),
     "presets": ("preset_names",),
@@ -63,6 +72,7 @@ _HOMES = {
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
+    "MJCF_PATH",
     "PACKAGE_PATH",
     "PRESETS_PATH",
     "SRDF_PATH",
@@ -139,6 +149,8 @@ __all__ = [
     "strike_area",
     "talon_hull_area",
     "to_glb",
+    "to_mjcf",
+    "to_mjcf_scene",
     "to_srdf",
     "to_urdf",
     "validate_foot",

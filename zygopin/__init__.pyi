@@ -36,6 +36,8 @@ from zygopin.inverse import find_word as find_word
 from zygopin.inverse import nearest_reachable as nearest_reachable
 from zygopin.kinematics import forward_kinematics as forward_kinematics
 from zygopin.mesh import to_glb as to_glb
+from zygopin.mjcf import to_mjcf as to_mjcf
+from zygopin.mjcf_scene import to_mjcf_scene as to_mjcf_scene
 from zygopin.model import FootModel as FootModel
 from zygopin.motion import Law as Law
 from zygopin.motion import Motion as Motion
@@ -43,6 +45,7 @@ from zygopin.obstacle import Box as Box
 from zygopin.obstacle import Capsule as Capsule
 from zygopin.obstacle import ConvexMesh as ConvexMesh
 from zygopin.obstacle import Sphere as Sphere
+from zygopin.paths import MJCF_PATH as MJCF_PATH
 from zygopin.paths import PACKAGE_PATH as PACKAGE_PATH
 from zygopin.paths import PRESETS_PATH as PRESETS_PATH
 from zygopin.paths import SRDF_PATH as SRDF_PATH

@@ -58,13 +58,14 @@ main.add_command(strike)
     type=click.Path(path_type=Path),
     help="Folder to write to.",
 )
+@click.option("--mjcf", is_flag=True, help="Add foot.xml and others, for MuJoCo.")
 @click.option("--glb", is_flag=True, help="Add foot.glb, for renderers and viewers.")
 @_JSON
-def urdf(output: Path, glb: bool, as_json: bool, **foot: Any) -> None:
+def urdf(output: Path, mjcf: bool, glb: bool, as_json: bool, **foot: Any) -> None:
     """Write foot.urdf, foot.srdf and both with a tendon."""
     from zygopin.bundle import write_description
 
-    paths = write_description(make_foot(**foot), output, glb=glb)
+    paths = write_description(make_foot(**foot), output, mjcf=mjcf, glb=glb)
     if as_json:
         click.echo(json.dumps({"files": [str(path) for path in paths]}, indent=2))
         return

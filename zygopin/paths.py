@@ -19,5 +19,8 @@ PRESETS_PATH: Path = PACKAGE_PATH / "presets"
 URDF_PATH: Path = PACKAGE_PATH / "expanded" / "parrot.urdf"
 """The default preset's URDF, ready to load elsewhere."""
 
+MJCF_PATH: Path = PACKAGE_PATH / "expanded" / "parrot.xml"
+"""The default preset's MuJoCo model, a servo at each joint."""
+
 SRDF_PATH: Path = PACKAGE_PATH / "expanded" / "parrot.srdf"
 """The default preset's SRDF: groups, named poses, disabled collisions."""
