@@ -24,6 +24,9 @@ URDF_PATH: str = str(paths.URDF_PATH)
 SRDF_PATH: str = str(paths.SRDF_PATH)
 """The default preset's SRDF."""
 
+MJCF_PATH: str = str(paths.MJCF_PATH)
+"""The default preset's MuJoCo model."""
+
 XACRO_PATH: str = str(paths.XACRO_PATH)
 """The parametric template of the whole foot."""
 
