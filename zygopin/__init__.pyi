@@ -5,6 +5,13 @@ from zygopin.branch import Branch as Branch
 from zygopin.branch import branch_axis as branch_axis
 from zygopin.bundle import write_description as write_description
 from zygopin.closing import Closing as Closing
+from zygopin.closure import ClosureQuality as ClosureQuality
+from zygopin.closure import closure_quality as closure_quality
+from zygopin.closure import force_closure as force_closure
+from zygopin.closure import least_friction as least_friction
+from zygopin.contacts import Contacts as Contacts
+from zygopin.contacts import Friction as Friction
+from zygopin.contacts import branch_contacts as branch_contacts
 from zygopin.control_system import ControlSystem as ControlSystem
 from zygopin.description import to_urdf as to_urdf
 from zygopin.engagement_plots import plot_engagement as plot_engagement
@@ -27,6 +34,8 @@ from zygopin.grip import Grip as Grip
 from zygopin.hausdorff import HausdorffDistance as HausdorffDistance
 from zygopin.hausdorff import directed_distance as directed_distance
 from zygopin.hausdorff import hausdorff_distance as hausdorff_distance
+from zygopin.hold import Hold as Hold
+from zygopin.hold import check_hold as check_hold
 from zygopin.ifs import ReachableSet as ReachableSet
 from zygopin.ifs import attractor as attractor
 from zygopin.ifs import iter_reachable as iter_reachable
@@ -35,6 +44,11 @@ from zygopin.inverse import contains as contains
 from zygopin.inverse import find_word as find_word
 from zygopin.inverse import nearest_reachable as nearest_reachable
 from zygopin.kinematics import forward_kinematics as forward_kinematics
+from zygopin.load import PullLimit as PullLimit
+from zygopin.load import Strength as Strength
+from zygopin.load import TiltLimit as TiltLimit
+from zygopin.load import pull_limit as pull_limit
+from zygopin.load import tilt_limit as tilt_limit
 from zygopin.mesh import to_glb as to_glb
 from zygopin.mjcf import to_mjcf as to_mjcf
 from zygopin.mjcf_scene import to_mjcf_scene as to_mjcf_scene
@@ -78,6 +92,9 @@ from zygopin.strike_plots import plot_strike as plot_strike
 from zygopin.strike_scene import export_strike as export_strike
 from zygopin.tendon import Contact as Contact
 from zygopin.tendon import TendonFoot as TendonFoot
+from zygopin.toe_torque import Tendon as Tendon
+from zygopin.toe_torque import tendon_of as tendon_of
+from zygopin.toe_torque import torque_matrix as torque_matrix
 from zygopin.trajectory import StrikeEvent as StrikeEvent
 from zygopin.trajectory import StrikeTrajectory as StrikeTrajectory
 from zygopin.validation import ReachValidation as ReachValidation

@@ -1,0 +1,54 @@
+"""The record of how a stance holds."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from stances import perched
+
+from zygopin.branch import Branch
+from zygopin.closure import closure_quality, least_friction
+from zygopin.contacts import Friction, branch_contacts
+from zygopin.errors import ParameterError
+from zygopin.foot import Foot
+from zygopin.grasp import check_grasp
+from zygopin.hold import check_hold
+from zygopin.load import Strength, pull_limit
+
+FIRM = Strength(1.0, Friction(0.5))
+
+
+def test_the_record_says_what_its_parts_say():
+    report = perched().report
+    hold, contacts = check_hold(report, FIRM), branch_contacts(report)
+    assert hold.held
+    assert hold.quality == closure_quality(contacts, FIRM.friction)
+    assert hold.least_friction == least_friction(contacts)
+    assert hold.pull.force == pull_limit(contacts, FIRM, [0, 0, 1]).force > 0
+
+
+def test_toes_that_lie_on_a_branch_do_not_hold():
+    foot = Foot.preset("parrot")
+    flat = Branch(radius=0.02, centre=(0, 0, -0.02 - foot.radii[0]))
+    hold = check_hold(check_grasp(foot, np.zeros(14), flat), FIRM)
+    assert not hold.held
+    assert hold.pull.bound == 0
+
+
+def test_nothing_that_touches_holds_nothing():
+    report = check_grasp(Foot.preset("parrot"), np.zeros(14), Branch(0.01, (0, 0, -1)))
+    hold = check_hold(report, FIRM)
+    assert hold.contacts is None
+    assert not hold.held
+    assert (hold.quality.high, hold.pull.bound) == (0, 0)
+    assert hold.least_friction == (math.inf, math.inf)
+
+
+def test_a_batch_is_refused():
+    report = check_grasp(
+        Foot.preset("parrot"), np.zeros((2, 14)), Branch(0.01, (0, 0, -1))
+    )
+    with pytest.raises(ParameterError, match="one stance"):
+        check_hold(report, FIRM)

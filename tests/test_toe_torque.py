@@ -1,0 +1,112 @@
+"""Torques at the joints: Pinocchio against the lever by hand; tendons."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from stances import perched
+
+from zygopin.branch import Branch
+from zygopin.contacts import Contacts, Friction, branch_contacts
+from zygopin.errors import ParameterError
+from zygopin.foot import Finger, Foot
+from zygopin.grasp import check_grasp
+from zygopin.load import Strength, pull_limit
+from zygopin.model import FootModel
+from zygopin.toe_torque import tendon_of, torque_matrix
+
+
+@pytest.mark.parametrize("name", ["parrot", "owl"])
+def test_the_lever_of_each_force_about_each_joint(name):
+    plan = perched(name)
+    foot, bones = plan.report.foot, plan.report.bones
+    contacts = branch_contacts(plan.report)
+    matrix = torque_matrix(FootModel(foot), plan.controls, contacts)
+    finger = foot.finger_of_phalanx
+    for k in range(foot.phalanx_count):
+        azimuth = foot.fingers[finger[k]].azimuth
+        axis = np.array([-np.sin(azimuth), np.cos(azimuth), 0])
+        for n, (point, rank) in enumerate(
+            zip(contacts.points, contacts.phalanges, strict=True)
+        ):
+            beyond = finger[rank] == finger[k] and rank >= k
+            lever = np.cross(axis, point - bones[k, 0]) * beyond
+            assert matrix[k, n] == pytest.approx(lever, abs=1e-15)
+
+
+def test_a_branch_that_pushes_up_opens_the_toe_by_hand():
+    # A straight toe along x, pushed up by 2 N at 30 mm: 0.06 N m to open it.
+    foot = Foot(rho=2.0, scale=0.1, fingers=(Finger("toe", 1, 0.0),))
+    contacts = Contacts([[0.03, 0, 0]], [[0, 0, 1]], phalanges=[0])
+    matrix = torque_matrix(FootModel(foot), np.zeros(1), contacts)
+    assert matrix[0, 0] @ [0, 0, 2] == pytest.approx(-0.06)
+
+
+def test_a_contact_of_no_phalanx_has_no_torque():
+    contacts = Contacts([[0.03, 0, 0]], [[0, 0, 1]])
+    with pytest.raises(ParameterError, match=r"phalanges\[0\] = -1"):
+        torque_matrix(FootModel(Foot.preset("parrot")), np.zeros(14), contacts)
+
+
+def test_a_toe_of_one_joint_presses_with_tension_times_arm_over_lever():
+    # One straight toe along x over a branch across, at 0.04 from the joint: N·0.04 =
+    # tension·arm. Frictionless, it bears a pull up of just that.
+    foot = Foot(rho=2.0, scale=0.1, thickness=0.01, fingers=(Finger("toe", 1, 0.0),))
+    branch = Branch(0.015, (0.04, 0, -0.02))
+    report = check_grasp(foot, np.zeros(1), branch)
+    contacts = branch_contacts(report)
+    tendon = tendon_of(FootModel(foot), report, contacts, tension=8.0)
+    free = replace(tendon, straight=np.array([False]))
+    firm = Strength(100.0, Friction(0.0), free)
+    down = pull_limit(contacts, firm, [0, 0, -1], point=[0.04, 0, 0])
+    assert tendon.arms.tolist() == [0.005]
+    assert down.force == pytest.approx(8.0 * 0.005 / 0.04)
+    # On its open stop the toe bears what the branch does: the stop closes it.
+    stopped = Strength(100.0, Friction(0.0), tendon)
+    rest = pull_limit(contacts, stopped, [0, 0, -1], point=[0.04, 0, 0])
+    assert rest.force == pytest.approx(100.0)
+
+
+def test_one_tension_for_all_joints_bears_less_than_any_torques():
+    plan = perched()
+    model, contacts = FootModel(plan.report.foot), branch_contacts(plan.report)
+    tendon = tendon_of(model, plan.report, contacts, 5.0)
+    steep = replace(tendon, arms=tendon.arms[0] * 0.5 ** np.arange(14.0))
+    for direction in np.eye(3):
+        alone = pull_limit(contacts, Strength(1, Friction(1.0)), direction)
+        for one in (tendon, steep):
+            shared = Strength(1, Friction(1.0), one)
+            assert pull_limit(contacts, shared, direction).force <= alone.force + 1e-9
+
+
+def test_a_pull_under_tension_leaves_every_joint_balanced():
+    plan = perched()
+    foot, model = plan.report.foot, FootModel(plan.report.foot)
+    contacts = branch_contacts(plan.report)
+    arms = foot.radii[0] * foot.rho ** (-3.0 * foot.rank_of_phalanx)
+    tendon = replace(tendon_of(model, plan.report, contacts, 5.0), arms=arms)
+    firm = Strength(1.0, Friction(1.0), tendon)
+    limit = pull_limit(contacts, firm, [0, 0, -1])
+    assert limit.force > 0.1
+    torques = np.einsum("pni,ni->p", tendon.matrix, limit.contact_forces)
+    for toe in range(4):
+        tensions = -torques[tendon.finger == toe] / arms[tendon.finger == toe]
+        assert np.ptp(tensions) < 1e-9
+        assert -1e-9 < tensions[0] <= 5.0 * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("tension", [0, -1, np.nan])
+def test_a_tendon_pulls(tension):
+    plan = perched()
+    model, contacts = FootModel(plan.report.foot), branch_contacts(plan.report)
+    with pytest.raises(ParameterError, match="tension"):
+        tendon_of(model, plan.report, contacts, tension)
+
+
+def test_bare_bones_have_no_tendon():
+    foot = Foot(rho=2.0, scale=0.1, fingers=(Finger("toe", 1, 0.0),))
+    report = check_grasp(foot, np.zeros(1), Branch(0.015, (0.04, 0, -0.015)))
+    with pytest.raises(ParameterError, match="thickness"):
+        tendon_of(FootModel(foot), report, branch_contacts(report), 1.0)

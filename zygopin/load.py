@@ -1,0 +1,259 @@
+"""What a grasp bears: the largest pull along a direction, the largest tilt."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from zygopin import checks
+from zygopin.contacts import Contacts, Floats, Friction
+from zygopin.errors import ParameterError
+from zygopin.programme import maximise_last
+from zygopin.toe_torque import Tendon
+
+GRAVITY = 9.80665
+"""Standard acceleration of free fall [m/s²]."""
+
+TILT_TOLERANCE = 1e-4
+"""Width of the interval to which the largest tilt is narrowed [rad]."""
+
+ROLL, PITCH = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])
+"""Axes about which branch and foot are tilted together: forward, left."""
+
+
+@dataclass(frozen=True)
+class Strength:
+    """How hard a toe can press.
+
+    Attributes:
+        normal_force: Largest normal force of each contact [N].
+        friction: Friction of each contact.
+        tendon: The toes' tendons, which then bear all that the joints must; None:
+            each joint has whatever torque it needs.
+
+    Raises:
+        ParameterError: A force that is not positive.
+    """
+
+    normal_force: float
+    friction: Friction
+    tendon: Tendon | None = None
+
+    def __post_init__(self) -> None:
+        value = checks.number(
+            "toe force",
+            self.normal_force,
+            allowed="a positive number of newtons",
+            where=lambda force: force > 0,
+            remedy="give what one phalanx can press, such as 1",
+        )
+        object.__setattr__(self, "normal_force", value)
+
+
+@dataclass(frozen=True, eq=False)
+class PullLimit:
+    """The largest pull that the contacts balance, and how they do.
+
+    Attributes:
+        force: The largest pull [N] that the inscribed pyramids bear: a hold.
+        bound: What the circumscribed pyramids bear [N]: no pull beyond it holds.
+        contact_forces: Forces on the foot that balance `force` [N], shape (N, 3).
+        residual: What they leave unbalanced [N].
+    """
+
+    force: float
+    bound: float
+    contact_forces: Floats
+    residual: float
+
+    def __post_init__(self) -> None:
+        checks.freeze(self)
+
+
+@dataclass(frozen=True)
+class TiltLimit:
+    """How far branch and foot can be tilted until the bird falls off.
+
+    Attributes:
+        roll: Largest turns about x, to the right side and to the left [rad].
+        pitch: Largest turns about y, nose up and nose down [rad].
+    """
+
+    roll: tuple[float, float]
+    pitch: tuple[float, float]
+
+
+def pull_limit(
+    contacts: Contacts,
+    strength: Strength,
+    direction: ArrayLike,
+    *,
+    point: ArrayLike = (0.0, 0.0, 0.0),
+    load: ArrayLike | None = None,
+) -> PullLimit:
+    """The largest force along a direction before the foot slips: a linear programme.
+
+    Args:
+        contacts: The contacts.
+        strength: Largest normal force of each, and their friction.
+        direction: Direction of the pull on the foot, shape (3,); its length is
+            of no account.
+        point: Where it pulls [m], shape (3,); by default the foot's base.
+        load: Another wrench that acts all the while, such as the weight [N], about
+            the contacts' origin, shape (6,).
+
+    Returns:
+        The limit; 0 where the contacts cannot even bear the load.
+
+    Raises:
+        ParameterError: A direction of length 0, or shapes that do not fit.
+    """
+    unit = _unit(direction)
+    pull = contacts.wrench_at(unit, checks.places("point", point))
+    still = np.zeros(6) if load is None else checks.array("load", load, last=6)
+    force, forces = _largest(contacts, strength, pull, still)
+    bound, _ = _largest(contacts, strength, pull, still, around=True)
+    left = contacts.wrenches(forces).sum(axis=0) + force * pull
+    left += still * (force > 0)
+    residual = float(np.linalg.norm(left))
+    return PullLimit(force, max(force, bound), forces, residual)
+
+
+def tilt_limit(
+    contacts: Contacts, strength: Strength, mass: float, centre_of_mass: ArrayLike
+) -> TiltLimit:
+    """How far branch and foot can be tilted together with a body on top.
+
+    The weight turns against them. The wrenches that the contacts bear are a convex
+    set that holds 0; its reach along two directions bounds it between them, so no
+    tilt is stepped over.
+
+    Args:
+        contacts: The contacts.
+        strength: Largest normal force of each, and their friction.
+        mass: Mass of the body [kg].
+        centre_of_mass: Where it is when upright, in the world's frame [m], shape (3,).
+
+    Returns:
+        The limits, each to `TILT_TOLERANCE` below the true one of the inscribed
+        pyramids; π: it even hangs on; 0: it does not stay on upright.
+
+    Raises:
+        ParameterError: A mass that is not positive, or a centre of no shape (3,).
+    """
+    weight = GRAVITY * checks.number(
+        "mass",
+        mass,
+        allowed="a positive number of kilograms",
+        where=lambda kilograms: kilograms > 0,
+        remedy="give the body's mass, such as 0.04",
+    )
+    centre = checks.places("centre_of_mass", centre_of_mass)
+    checks.shaped("centre_of_mass", centre, (3,))
+
+    def reach(axis: Floats, angle: float) -> float:
+        """How many times the weight is borne at a tilt, at most."""
+        down = np.array([0.0, 0.0, -math.cos(angle)])
+        down -= math.sin(angle) * np.cross(axis, [0.0, 0.0, -1.0])
+        pull = contacts.wrench_at(weight * down, centre)
+        return _largest(contacts, strength, pull, np.zeros(6))[0]
+
+    right, left, up, down = (
+        _furthest(partial(reach, axis)) for axis in (ROLL, -ROLL, -PITCH, PITCH)
+    )
+    return TiltLimit(roll=(right, left), pitch=(up, down))
+
+
+def _furthest(reach: Callable[[float], float]) -> float:
+    """The end of the tilts from 0 on at which the weight is borne all the way.
+
+    With reaches s and s' at two tilts Δ apart, convexity bears s·cos(Δ/2) of the
+    weight between them, s the smaller.
+    """
+    angle, share, step = 0.0, reach(0.0), math.pi / 8
+    if share < 1:
+        return 0.0
+    while angle < math.pi and step > TILT_TOLERANCE:
+        ahead = min(angle + step, math.pi)
+        further = reach(ahead)
+        if min(share, further) * math.cos((ahead - angle) / 2) >= 1:
+            angle, share, step = ahead, further, 2 * step
+        else:
+            step /= 2
+    return angle
+
+
+def _largest(
+    contacts: Contacts,
+    strength: Strength,
+    pull: Floats,
+    load: Floats,
+    *,
+    around: bool = False,
+) -> tuple[float, Floats]:
+    """The largest multiple of a pull that is borne beside a load, and the forces.
+
+    Forces are in units of the largest normal force. Unknowns are the edges' loads
+    λ ≥ 0, what tendons and stops add, and the multiple: maximise it with
+    Σ λ w + multiple·pull + load = 0 and Σ λ ≤ 1 per contact.
+    """
+    edges = strength.friction.forces(contacts.normals, around=around)
+    count, sides, _ = edges.shape
+    wrenches = contacts.wrenches(edges).reshape(-1, 6).T
+    size = float(np.linalg.norm(pull))
+    joints, most = _joint_rows(strength, edges)
+    held = joints.shape[1] - count * sides
+    balance = np.hstack([wrenches, np.zeros((6, held)), pull[:, None] / size])
+    still = np.hstack([joints, np.zeros((len(joints), 1))])
+    pressed = np.kron(np.eye(count), np.ones(sides))
+    best = maximise_last(
+        count * sides + held + 1,
+        A_eq=np.vstack([balance, still]),
+        b_eq=[*(-load / strength.normal_force), *np.zeros(len(still))],
+        A_ub=np.hstack([pressed, np.zeros((count, held + 1))]),
+        b_ub=np.ones(count),
+        bounds=[(0, None)] * (count * sides) + most + [(0, None)],
+    )
+    if best is None:
+        return 0.0, np.zeros((count, 3))
+    shares = best.unknowns[: count * sides].reshape(count, sides, 1)
+    forces = (shares * strength.normal_force * edges).sum(axis=1)
+    return max(0.0, best.value) * strength.normal_force / size, forces
+
+
+def _joint_rows(
+    strength: Strength, edges: Floats
+) -> tuple[Floats, list[tuple[float, float | None]]]:
+    """Balance of each joint that a tendon bends, over the tendon's arm.
+
+    Returns:
+        Coefficients of the edges' loads, the toes' tensions, and the stops' torques,
+        shape (joints, unknowns); and the bounds of what comes after the edges.
+    """
+    tendon, count = strength.tendon, edges.shape[0] * edges.shape[1]
+    if tendon is None:
+        return np.zeros((0, count)), []
+    torques = np.einsum("pni,nmi->pnm", tendon.matrix, edges).reshape(-1, count)
+    toes = tendon.finger[:, None] == np.unique(tendon.finger)
+    stops = np.diag(tendon.straight * 1.0 - tendon.bent)
+    stops = stops[:, tendon.straight | tendon.bent]
+    rows = np.hstack([torques / tendon.arms[:, None], toes, stops])
+    tension = (0.0, tendon.tension / strength.normal_force)
+    return rows, [tension] * toes.shape[1] + [(0.0, None)] * stops.shape[1]
+
+
+def _unit(direction: ArrayLike) -> Floats:
+    """A direction of length 1."""
+    vector = checks.places("direction", direction)
+    checks.shaped("direction", vector, (3,))
+    length = float(np.linalg.norm(vector))
+    if length == 0:
+        remedy = "give the direction of the pull, such as 0 0 1 for up"
+        raise ParameterError("direction", vector, "not zero", remedy)
+    unit: Floats = vector / length
+    return unit
