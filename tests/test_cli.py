@@ -48,9 +48,15 @@ def test_perch_document_has_the_documented_shape(perch_document):
         "controls",
         "verdict",
         "scalar_product",
+        "hold",
         "phalanges",
         "engines",
     }
+    hold = perch_document["hold"]
+    assert (hold["friction"], hold["toe_force"]) == (0.5, 1.0)
+    assert perch_document["verdict"]["held"]
+    for bracket in ("quality", "least_friction", "pull_limit"):
+        assert 0 <= hold[bracket]["low"] <= hold[bracket]["high"]
     assert set(perch_document["branch"]) == {"radius", "centre", "axis", "length"}
     assert perch_document["branch"]["radius"] == pytest.approx(0.008)
     assert perch_document["branch"]["length"] is None
@@ -59,6 +65,28 @@ def test_perch_document_has_the_documented_shape(perch_document):
     keys = {"finger", "phalanx", "clearance", "t", "tangent", "point", "normal"}
     assert all(set(phalanx) == keys for phalanx in perch_document["phalanges"])
     assert Foot.from_mapping(perch_document["foot"]) == Foot.preset("parrot")
+
+
+def test_a_toe_twice_as_strong_bears_twice_the_pull(perch_document):
+    stronger = run("perch", "--radius-mm", "8", "--toe-force-n", "2", "--json")
+    hold, twice = perch_document["hold"], json.loads(stronger.stdout)["hold"]
+    assert twice["pull_limit"]["low"] == pytest.approx(2 * hold["pull_limit"]["low"])
+    assert twice["quality"] == hold["quality"]
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "message"),
+    [
+        ("--friction", "-0.1", "friction = -0.1 is not a coefficient from 0 to 1000"),
+        ("--friction", "nan", "friction = nan"),
+        ("--toe-force-n", "0", "toe force = 0.0 is not a positive number of newtons"),
+    ],
+)
+def test_a_hold_that_cannot_be_is_one_line(option, value, message):
+    result = run("perch", "--radius-mm", "8", option, value)
+    assert result.returncode == 2
+    assert result.stderr.startswith(f"zygopin: {message}")
+    assert result.stderr.count("\n") == 1
 
 
 def test_check_confirms_what_perch_found(perch_document, tmp_path):
@@ -308,7 +336,7 @@ def test_help_documents_every_option(command):
     [
         (("--help",), ("numpy", "pinocchio", "fcl", "meshcat", "scipy", "yourdfpy")),
         (("perch", "--help"), ("numpy", "pinocchio", "fcl", "meshcat")),
-        (GRASP, ("meshcat", "scipy", "yourdfpy", "matplotlib")),
+        (GRASP, ("meshcat", "yourdfpy", "matplotlib")),
     ],
 )
 def test_commands_load_only_what_they_use(arguments, absent):

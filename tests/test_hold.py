@@ -15,7 +15,8 @@ from zygopin.errors import ParameterError
 from zygopin.foot import Foot
 from zygopin.grasp import check_grasp
 from zygopin.hold import check_hold
-from zygopin.load import Strength, pull_limit
+from zygopin.load import pull_limit
+from zygopin.strength import Strength
 
 FIRM = Strength(1.0, Friction(0.5))
 

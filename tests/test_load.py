@@ -11,7 +11,8 @@ from stances import perched, ring
 
 from zygopin.contacts import Contacts, Friction, branch_contacts
 from zygopin.errors import ParameterError
-from zygopin.load import GRAVITY, Strength, pull_limit, tilt_limit
+from zygopin.load import GRAVITY, pull_limit, tilt_limit
+from zygopin.strength import Strength
 
 THREE = ring(0, 120, 240)
 

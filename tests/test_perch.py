@@ -11,10 +11,13 @@ import numpy as np
 import pytest
 
 from zygopin.branch import Branch, branch_axis
-from zygopin.errors import ParameterError
+from zygopin.contacts import Friction
+from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.foot import Finger, Foot
 from zygopin.grasp import check_grasp
+from zygopin.hold import check_hold
 from zygopin.perch import plan_perch
+from zygopin.strength import Strength
 
 PARROT = Foot.preset("parrot")
 SIZE = PARROT.size
@@ -274,3 +277,37 @@ def test_a_branch_that_holds_the_base_is_refused(find_height):
 def test_levels_out_of_range_are_refused(levels):
     with pytest.raises(ParameterError, match=r"levels = .* an integer from 2 to 33"):
         plan_perch(PARROT, Branch(0.008, UNDER), levels=levels)
+
+
+# Preferences ---------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("share", [0.2, 0.35])
+def test_what_is_preferred_is_had_at_least_as_much(share):
+    foot = Foot.preset("owl")
+    branch = Branch(share * foot.size, (0, 0, -1.2 * share * foot.size))
+    firm = Strength(1.0, Friction(0.5))
+    plans = {
+        prefer: plan_perch(foot, branch, find_height=True, prefer=prefer, strength=firm)
+        for prefer in ("wrap", "quality", "pull")
+    }
+    holds = {key: check_hold(plan.report, firm) for key, plan in plans.items()}
+    assert all(plan.grasping for plan in plans.values())
+    for key, hold in holds.items():
+        assert hold.quality.low <= holds["quality"].quality.low, key
+        assert hold.pull.force <= holds["pull"].pull.force, key
+    assert plans["wrap"].wrap.sum() >= max(plan.wrap.sum() for plan in plans.values())
+
+
+def test_a_preference_that_does_not_exist_names_those_that_do():
+    foot = Foot.preset("parrot")
+    with pytest.raises(UnknownNameError, match="wrap, quality, pull"):
+        plan_perch(foot, Branch(0.008, (0, 0, -0.01)), prefer="force")
+
+
+def test_without_a_grasp_the_preference_makes_no_difference():
+    foot = Foot.preset("paper")
+    branch = Branch(0.4, (0, 0, -0.5))
+    plans = [plan_perch(foot, branch, prefer=prefer) for prefer in ("wrap", "pull")]
+    assert plans[0].controls.tolist() == plans[1].controls.tolist()
+    assert plans[1].reason is not None

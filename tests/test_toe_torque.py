@@ -13,8 +13,9 @@ from zygopin.contacts import Contacts, Friction, branch_contacts
 from zygopin.errors import ParameterError
 from zygopin.foot import Finger, Foot
 from zygopin.grasp import check_grasp
-from zygopin.load import Strength, pull_limit
+from zygopin.load import pull_limit
 from zygopin.model import FootModel
+from zygopin.strength import Strength
 from zygopin.toe_torque import tendon_of, torque_matrix
 
 

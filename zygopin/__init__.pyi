@@ -45,7 +45,6 @@ from zygopin.inverse import find_word as find_word
 from zygopin.inverse import nearest_reachable as nearest_reachable
 from zygopin.kinematics import forward_kinematics as forward_kinematics
 from zygopin.load import PullLimit as PullLimit
-from zygopin.load import Strength as Strength
 from zygopin.load import TiltLimit as TiltLimit
 from zygopin.load import pull_limit as pull_limit
 from zygopin.load import tilt_limit as tilt_limit
@@ -86,13 +85,14 @@ from zygopin.spread import spread_study as spread_study
 from zygopin.spread import strike_area as strike_area
 from zygopin.spread import talon_hull_area as talon_hull_area
 from zygopin.srdf import to_srdf as to_srdf
+from zygopin.strength import Strength as Strength
+from zygopin.strength import Tendon as Tendon
 from zygopin.strike import simulate_strike as simulate_strike
 from zygopin.strike_output import save_strike as save_strike
 from zygopin.strike_plots import plot_strike as plot_strike
 from zygopin.strike_scene import export_strike as export_strike
 from zygopin.tendon import Contact as Contact
 from zygopin.tendon import TendonFoot as TendonFoot
-from zygopin.toe_torque import Tendon as Tendon
 from zygopin.toe_torque import tendon_of as tendon_of
 from zygopin.toe_torque import torque_matrix as torque_matrix
 from zygopin.trajectory import StrikeEvent as StrikeEvent

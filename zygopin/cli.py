@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,13 +19,16 @@ from zygopin.options import (
     POSITIVE_MM,
     branch_options,
     foot_options,
+    hold_options,
     make_branch,
     make_foot,
+    make_strength,
 )
 from zygopin.terminal import print_table, waiting
 
 if TYPE_CHECKING:  # commands load what they use, so that --help is quick
     from zygopin.grasp import GraspReport
+    from zygopin.strength import Strength
 
 _HTML = click.option(
     "--html", type=click.Path(path_type=Path), help="Write the scene to this file."
@@ -77,6 +81,14 @@ def urdf(output: Path, mjcf: bool, glb: bool, as_json: bool, **foot: Any) -> Non
 @foot_options
 @branch_options
 @click.option("--height-mm", "height", type=MM, help="z of the centre; else searched.")
+@click.option(
+    "--prefer",
+    type=click.Choice(["wrap", "quality", "pull"]),
+    default="wrap",
+    show_default=True,
+    help="What the best grasp has most of.",
+)
+@hold_options
 @_HTML
 @_JSON
 @click.pass_context
@@ -85,6 +97,9 @@ def perch(
     /,
     radius: float,
     height: float | None,
+    prefer: Any,
+    friction: float,
+    toe_force: float,
     html: Path | None,
     as_json: bool,
     **options: Any,
@@ -96,6 +111,7 @@ def perch(
     """
     from zygopin.perch import plan_perch
 
+    strength = make_strength(friction, toe_force)
     pose = {name: options.pop(name) for name in ("yaw", "pitch", "length")}
     foot = make_foot(**options)
     search = height is None
@@ -103,8 +119,10 @@ def perch(
     start = -2 * (radius + foot.size) / level if height is None else height
     branch = make_branch(radius, start, **pose)
     with waiting("planning", quiet=as_json):
-        plan = plan_perch(foot, branch, find_height=search)
-    _show(plan.report, html, as_json, plan.reason)
+        plan = plan_perch(
+            foot, branch, find_height=search, prefer=prefer, strength=strength
+        )
+    _show(_Shown(plan.report, strength, plan.reason), html, as_json)
     context.exit(0 if plan.grasping else 1)
 
 
@@ -130,6 +148,7 @@ def perch(
     type=POSITIVE_MM,
     help="Largest gap that is a contact.  [default: 1e-6 of the foot]",
 )
+@hold_options
 @_HTML
 @_JSON
 @click.pass_context
@@ -139,6 +158,8 @@ def check(
     controls: str,
     reading: Any,
     tolerance: float | None,
+    friction: float,
+    toe_force: float,
     html: Path | None,
     as_json: bool,
     **options: Any,
@@ -153,13 +174,14 @@ def check(
     from zygopin.grasp import Criteria, check_grasp
     from zygopin.reason import why_not
 
+    strength = make_strength(friction, toe_force)
     names = ("radius", "height", "yaw", "pitch", "length")
     branch = make_branch(**{name: options.pop(name) for name in names})
     criteria = Criteria(reading, tolerance)
     foot = make_foot(**options)
     values = read_controls(controls, foot)
     report = check_grasp(foot, values, branch, criteria=criteria)
-    _show(report, html, as_json, why_not(report))
+    _show(_Shown(report, strength, why_not(report)), html, as_json)
     context.exit(0 if report.grasping else 1)
 
 
@@ -179,39 +201,57 @@ def presets(name: str | None, as_json: bool) -> None:
         _show_preset(name, read_preset(name))
 
 
-def _show(
-    report: GraspReport, html: Path | None, as_json: bool, reason: str | None
-) -> None:
+@dataclass(frozen=True)
+class _Shown:
+    """What `perch` and `check` show.
+
+    Attributes:
+        report: The verdicts.
+        strength: How hard the toes press, and their friction.
+        reason: Why it is no feasible grasp; None where it is one.
+    """
+
+    report: GraspReport
+    strength: Strength
+    reason: str | None
+
+
+def _show(shown: _Shown, html: Path | None, as_json: bool) -> None:
     """Check a report with FCL, write its scene, print it."""
     from zygopin import output
     from zygopin.grasp import check_grasp
+    from zygopin.hold import check_hold
 
+    report = shown.report
     second = check_grasp(report.foot, report.controls, report.branch, engine="fcl")
     difference = report.difference(second)
+    hold = check_hold(report, shown.strength)
     if html is not None:
         from zygopin.scene import export_scene
 
         export_scene(report, html)
     if as_json:
-        document = output.report_document(report, difference, reason)
+        document = output.report_document(report, difference, hold, shown.reason)
         click.echo(json.dumps(document, indent=2, allow_nan=False))
     else:
-        _print_report(report, difference, html)
-    if reason is not None:
-        click.echo(f"zygopin: no feasible grasp: {reason}", err=True)
+        _print_report(report, output.verdict_lines(report, difference))
+        for line in output.hold_lines(hold):
+            click.echo(line)
+        if html is not None:
+            click.echo(f"scene: {html}")
+    if shown.reason is not None:
+        click.echo(f"zygopin: no feasible grasp: {shown.reason}", err=True)
 
 
-def _print_report(report: GraspReport, difference: float, html: Path | None) -> None:
-    """The table, the verdicts, and where the scene is."""
+def _print_report(report: GraspReport, verdicts: list[str]) -> None:
+    """The table and the verdicts."""
     from zygopin import output
 
     click.echo(f"{report.foot.name}, branch: {output.branch_line(report.branch)}")
     headings = ("finger", "phalanx", "control", "clearance [mm]", "t", "contact")
     print_table(headings, output.report_rows(report), "lrrrrl")
-    for line in output.verdict_lines(report, difference):
+    for line in verdicts:
         click.echo(line)
-    if html is not None:
-        click.echo(f"scene: {html}")
 
 
 def _list_presets() -> None:

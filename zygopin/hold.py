@@ -15,7 +15,8 @@ from zygopin.closure import (
 )
 from zygopin.contacts import Contacts, branch_contacts
 from zygopin.grasp import GraspReport
-from zygopin.load import PullLimit, Strength, pull_limit
+from zygopin.load import PullLimit, pull_limit
+from zygopin.strength import Strength
 
 UP = (0.0, 0.0, 1.0)
 """Direction of the pull that lifts the foot off a branch below it."""

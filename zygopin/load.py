@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from zygopin import checks
-from zygopin.contacts import Contacts, Floats, Friction
+from zygopin.contacts import Contacts, Floats
 from zygopin.errors import ParameterError
 from zygopin.programme import maximise_last
-from zygopin.toe_torque import Tendon
+from zygopin.strength import Strength
 
 GRAVITY = 9.80665
 """Standard acceleration of free fall [m/s²]."""
@@ -24,35 +24,6 @@ TILT_TOLERANCE = 1e-4
 
 ROLL, PITCH = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])
 """Axes about which branch and foot are tilted together: forward, left."""
-
-
-@dataclass(frozen=True)
-class Strength:
-    """How hard a toe can press.
-
-    Attributes:
-        normal_force: Largest normal force of each contact [N].
-        friction: Friction of each contact.
-        tendon: The toes' tendons, which then bear all that the joints must; None:
-            each joint has whatever torque it needs.
-
-    Raises:
-        ParameterError: A force that is not positive.
-    """
-
-    normal_force: float
-    friction: Friction
-    tendon: Tendon | None = None
-
-    def __post_init__(self) -> None:
-        value = checks.number(
-            "toe force",
-            self.normal_force,
-            allowed="a positive number of newtons",
-            where=lambda force: force > 0,
-            remedy="give what one phalanx can press, such as 1",
-        )
-        object.__setattr__(self, "normal_force", value)
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,6 +14,7 @@ from zygopin.errors import ParameterError
 if TYPE_CHECKING:  # commands load what they use, so that --help is quick
     from zygopin.branch import Branch
     from zygopin.foot import Foot
+    from zygopin.strength import Strength
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -191,6 +192,55 @@ def branch_options(command: Command) -> Command:
     ):
         command = option(command)
     return command
+
+
+def hold_options(command: Command) -> Command:
+    """Add the options that say how a toe holds on.
+
+    Args:
+        command: The command's function; gets them as keyword arguments.
+
+    Returns:
+        The same function, decorated.
+    """
+    for option in (
+        click.option(
+            "--toe-force-n",
+            "toe_force",
+            type=float,
+            default=1.0,
+            show_default=True,
+            help="Largest normal force of a contact.",
+        ),
+        click.option(
+            "--friction",
+            type=float,
+            default=0.5,
+            show_default=True,
+            help="Coefficient of friction on the branch.",
+        ),
+    ):
+        command = option(command)
+    return command
+
+
+def make_strength(friction: float, toe_force: float) -> Strength:
+    """What the options of a hold say.
+
+    Args:
+        friction: Coefficient of friction.
+        toe_force: Largest normal force of a contact [N].
+
+    Returns:
+        The strength.
+
+    Raises:
+        ParameterError: A value out of range.
+    """
+    from zygopin.contacts import Friction
+    from zygopin.strength import Strength
+
+    return Strength(toe_force, Friction(friction))
 
 
 def make_foot(preset: str | None, foot_file: Path | None, **changes: Any) -> Foot:

@@ -10,18 +10,23 @@ from numpy.typing import ArrayLike
 
 from zygopin.branch import Branch, yaw_and_pitch
 from zygopin.grasp import GraspReport
+from zygopin.hold import Hold
 from zygopin.kinematics import by_finger
 from zygopin.reason import MILLIMETRES
 
+NO_FRICTION = 1e-4
+"""Coefficient of friction that is called none."""
+
 
 def report_document(
-    report: GraspReport, difference: float, reason: str | None = None
+    report: GraspReport, difference: float, hold: Hold, reason: str | None = None
 ) -> dict[str, Any]:
     """A report on one configuration as plain values, all in SI.
 
     Args:
         report: The report, not batched.
         difference: Largest difference between the two engines [m].
+        hold: How it holds.
         reason: Why the pose is no grasp, where a planner says so.
 
     Returns:
@@ -36,6 +41,7 @@ def report_document(
             "stable": bool(report.stable),
             "grasping": bool(report.grasping),
             "feasible": bool(report.feasible),
+            "held": hold.held,
             "finger_clearance": _plain(report.finger_clearance),
             "tolerance": report.tolerance,
             "reason": reason,
@@ -44,6 +50,7 @@ def report_document(
             "section": _plain(report.scalar_product),
             "base_to_tip": _plain(report.scalar_product_base_to_tip),
         },
+        "hold": _hold(hold),
         "phalanges": [_phalanx(report, k) for k in range(report.foot.phalanx_count)],
         "engines": {"max_difference": difference},
     }
@@ -133,6 +140,42 @@ def verdict_lines(report: GraspReport, difference: float) -> list[str]:
         f"least distance between two fingers {between}",
         f"engines (exact, FCL) differ by at most {difference:.1e} m",
     ]
+
+
+def hold_lines(hold: Hold) -> list[str]:
+    """How a stance holds, for a terminal.
+
+    Args:
+        hold: The record.
+
+    Returns:
+        Lines of at most 80 characters.
+    """
+    friction, force = hold.strength.friction.coefficient, hold.strength.normal_force
+    least = hold.least_friction[1]
+    needs = f"closes from friction {least:.2g} on"
+    if least < NO_FRICTION:
+        needs = "closes with any friction"
+    if not math.isfinite(least):
+        needs = "closes with no friction"
+    return [
+        f"held {'yes' if hold.held else 'no'} at friction {friction:g}; {needs}; "
+        f"quality {hold.quality.low:.3f} to {hold.quality.high:.3f}",
+        f"bears a pull up of {hold.pull.force:.3g} N "
+        f"where each contact presses {force:g} N at most",
+    ]
+
+
+def _hold(hold: Hold) -> dict[str, Any]:
+    """How a stance holds as plain values."""
+    low, high = map(_plain, hold.least_friction)
+    return {
+        "friction": hold.strength.friction.coefficient,
+        "toe_force": hold.strength.normal_force,
+        "quality": {"low": hold.quality.low, "high": hold.quality.high},
+        "least_friction": {"low": low, "high": high},
+        "pull_limit": {"low": hold.pull.force, "high": hold.pull.bound},
+    }
 
 
 def _branch(branch: Branch) -> dict[str, Any]:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +14,9 @@ from numpy.typing import NDArray
 from zygopin import checks
 from zygopin.branch import Branch
 from zygopin.clearance import Floats, segment_distance
-from zygopin.errors import ParameterError
+from zygopin.closure import closure_quality
+from zygopin.contacts import Friction, branch_contacts
+from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.foot import Foot
 from zygopin.grasp import (
     PARAMETER_SLACK,
@@ -20,7 +25,9 @@ from zygopin.grasp import (
     check_branch,
     check_grasp,
 )
+from zygopin.load import pull_limit
 from zygopin.reason import MILLIMETRES, why_not
+from zygopin.strength import Strength
 from zygopin.wrap import FingerPoses, finger_poses
 
 LEVELS = 7
@@ -57,6 +64,11 @@ the nearest first."""
 BELOW = np.array([0.0, 0.0, -50.0])
 """A place for a branch whose height is still to be found, over the foot's size."""
 
+Preference = Literal["wrap", "quality", "pull"]
+
+SHORTLIST: dict[str, int] = {"wrap": 1, "quality": 24, "pull": 96}
+"""How many grasps are compared for each preference: a second or two of work."""
+
 Booleans = NDArray[np.bool_]
 Indices = NDArray[np.intp]
 
@@ -90,7 +102,13 @@ class PerchPlan:
 
 
 def plan_perch(
-    foot: Foot, branch: Branch, *, find_height: bool = False, levels: int = LEVELS
+    foot: Foot,
+    branch: Branch,
+    *,
+    find_height: bool = False,
+    levels: int = LEVELS,
+    prefer: Preference = "wrap",
+    strength: Strength | None = None,
 ) -> PerchPlan:
     """Controls that perch on a branch, wrapped as far as they can be.
 
@@ -106,6 +124,10 @@ def plan_perch(
         find_height: Also move the branch along z to where it is grasped best.
         levels: Angles tried at each joint, 2 to 33; the work grows as levels^K, so
             that fingers of many phalanges get fewer.
+        prefer: What the best grasp has most of: `wrap`; `quality`, Ferrari and
+            Canny's; or `pull`, the force away from the branch that it bears. The
+            latter two are compared over a shortlist of the grasps found.
+        strength: How hard toes press, for those two; None: 1 N at friction 0.5.
 
     Returns:
         The best plan; its `reason` says why where it is no feasible grasp.
@@ -113,7 +135,10 @@ def plan_perch(
     Raises:
         ParameterError: A batch of branches, one that holds the foot's base, a vertical
             branch whose height is to be found, or levels out of range.
+        UnknownNameError: There is no such preference.
     """
+    if prefer not in SHORTLIST:
+        raise UnknownNameError("preference", prefer, tuple(SHORTLIST))
     if branch.batch_shape:
         remedy = "plan for one branch at a time"
         raise ParameterError("branch batch", branch.batch_shape, "()", remedy)
@@ -121,20 +146,50 @@ def plan_perch(
     check_branch(foot, branch)
     if find_height:
         branch = _best_height(foot, branch)
-    report, wrap = _planned(foot, branch, levels)
+    value = partial(_hold, prefer, strength or Strength(1.0, Friction()))
+    report, wrap = _planned(foot, branch, levels, value, SHORTLIST[prefer])
     reason = _reason(report, searched=find_height)
     return PerchPlan(report.controls, branch, report, wrap, reason)
 
 
-def _planned(foot: Foot, branch: Branch, levels: int) -> tuple[GraspReport, Floats]:
-    """Verdicts on the best pose for a branch in its place, and its wrap."""
+def _planned(
+    foot: Foot,
+    branch: Branch,
+    levels: int,
+    value: Callable[[GraspReport], float],
+    most: int,
+) -> tuple[GraspReport, Floats]:
+    """Verdicts on the best pose for a branch in its place, and its wrap.
+
+    Among so many grasps, the first of equal value; without a grasp, what comes first.
+    """
     poses = _all_poses(foot, branch.broadcast((1,)), levels)
-    chosen, _ = _best_combination(foot, poses)
+    combos, grasps, _ = _combinations(foot, poses)
+    grasping = np.flatnonzero(grasps)
+    if len(grasping) > 1 and most > 1:
+        spread = np.linspace(0, len(grasping) - 1, min(most, len(grasping)))
+        tried = combos[grasping[spread.astype(np.intp)]]
+    else:
+        tried = combos[:1]
     controls = np.concatenate(
-        [p.controls[i] for p, i in zip(poses, chosen, strict=True)]
+        [p.controls[i] for p, i in zip(poses, tried.T, strict=True)], axis=-1
     )
-    wrap = np.array([p.wrap[i] for p, i in zip(poses, chosen, strict=True)])
-    return check_grasp(foot, controls, branch), wrap
+    reports = [check_grasp(foot, each, branch) for each in controls]
+    values = [value(report) for report in reports] if len(reports) > 1 else [0.0]
+    best = int(np.argmax(values))
+    wrap = np.array([p.wrap[i] for p, i in zip(poses, tried[best], strict=True)])
+    return reports[best], wrap
+
+
+def _hold(prefer: Preference, strength: Strength, report: GraspReport) -> float:
+    """What a grasp is worth to those who prefer a firm one; −∞ for none."""
+    if not (report.grasping and report.feasible):
+        return -math.inf
+    contacts = branch_contacts(report)
+    if prefer == "quality":
+        return closure_quality(contacts, strength.friction).low
+    away = -contacts.origin if np.any(contacts.origin) else BELOW
+    return pull_limit(contacts, strength, away).force
 
 
 def _all_poses(foot: Foot, branches: Branch, levels: int) -> list[FingerPoses]:
@@ -144,8 +199,10 @@ def _all_poses(foot: Foot, branches: Branch, levels: int) -> list[FingerPoses]:
     return [finger_poses(foot, i, branches, levels, tolerance) for i in fingers]
 
 
-def _best_combination(foot: Foot, poses: list[FingerPoses]) -> tuple[Indices, float]:
-    """One pose for each finger, and what the combination is worth.
+def _combinations(
+    foot: Foot, poses: list[FingerPoses]
+) -> tuple[Indices, Booleans, Floats]:
+    """One pose for each finger, whether it grasps, what it is worth: the best first.
 
     Fingers are added one by one; the best `BEAM` combinations are kept.
     """
@@ -165,7 +222,7 @@ def _best_combination(foot: Foot, poses: list[FingerPoses]) -> tuple[Indices, fl
         row, pose = np.unravel_index(ranked[:BEAM], total.shape)
         combos = np.concatenate([combos[row], pose[:, None]], axis=1)
         worth, grasps = total[row, pose], grasping[row, pose]
-    return combos[0], float(worth[0] + GRASP * grasps[0])
+    return combos, grasps & (worth > -PENALTY / 2), worth + GRASP * grasps
 
 
 def _worth(foot: Foot, poses: FingerPoses) -> Floats:
@@ -209,7 +266,7 @@ def _best_height(foot: Foot, branch: Branch) -> Branch:
         gaps = np.linspace(low, high, HEIGHTS)
         poses = _all_poses(foot, _lowered(branch, top - gaps), COARSE_LEVELS)
         worths = [
-            _best_combination(foot, [p.take(p.place == place) for p in poses])[1]
+            _combinations(foot, [p.take(p.place == place) for p in poses])[2][0]
             for place in range(HEIGHTS)
         ]
         # Of equally good heights the nearest: the foot sits rather than hangs.
@@ -273,7 +330,8 @@ def _better_branch(report: GraspReport) -> str:
     tried = sorted(TRIED_RADII, key=lambda x: abs(math.log(x * foot.size / radius)))
     for share in tried:
         branch = Branch(share * foot.size, BELOW * foot.size, report.branch.axis)
-        found, _ = _planned(foot, _best_height(foot, branch), COARSE_LEVELS)
+        there = _best_height(foot, branch)
+        found, _ = _planned(foot, there, COARSE_LEVELS, lambda _: 0.0, 1)
         if found.feasible and found.grasping:
             kind = "thinner" if share * foot.size < radius else "thicker"
             example = share * foot.size * MILLIMETRES

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import pinocchio as pin
-from numpy.typing import NDArray
 
 from zygopin import checks, names
 from zygopin.contacts import Contacts, Floats
@@ -14,6 +11,7 @@ from zygopin.errors import ParameterError
 from zygopin.foot import Foot
 from zygopin.grasp import GraspReport
 from zygopin.model import FootModel
+from zygopin.strength import Tendon
 
 STOP = 1e-9
 """Control this near to 0 or 1 is at the joint's stop."""
@@ -55,34 +53,6 @@ def torque_matrix(model: FootModel, controls: Floats, contacts: Contacts) -> Flo
         arm = point - data.oMf[frame].translation
         matrix[:, place] = jacobian[:3].T + np.cross(jacobian[3:].T, arm)
     return matrix
-
-
-@dataclass(frozen=True, eq=False)
-class Tendon:
-    """Toes each drawn by one tendon: all joints of a toe share its tension.
-
-    The tendon passes each joint at its phalanx's skin radius, so that it bends it with
-    tension·radius. A straight joint rests on its stop, which can only close it, a fully
-    bent one on the other, which can only open it; no other torque acts.
-
-    Attributes:
-        tension: Largest tension of each toe's tendon [N].
-        matrix: Closing torques per unit of contact force [m], shape (P, N, 3).
-        arms: Moment arm of the tendon at each joint [m], shape (P,).
-        finger: Index of each joint's toe, shape (P,).
-        straight: Joints at their open stop, shape (P,).
-        bent: Joints at their closed stop, shape (P,).
-    """
-
-    tension: float
-    matrix: Floats
-    arms: Floats
-    finger: NDArray[np.intp]
-    straight: NDArray[np.bool_]
-    bent: NDArray[np.bool_]
-
-    def __post_init__(self) -> None:
-        checks.freeze(self)
 
 
 def tendon_of(
