@@ -91,6 +91,7 @@ LAYERS = (
     "canvas",
     "playback",
     "drawing",
+    "hold_drawing",
     "caption",
     "obstacle_drawing",
     "scene",

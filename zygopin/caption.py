@@ -12,6 +12,7 @@ import numpy as np
 from zygopin.branch import Branch, yaw_and_pitch
 from zygopin.foot import Foot
 from zygopin.grasp import GraspReport
+from zygopin.hold import Hold
 
 SIGNIFICANT = 4
 """Figures of a length as long as the foot; shorter ones keep the same last place."""
@@ -56,7 +57,11 @@ def verdict_words(report: GraspReport) -> str:
 
 
 def caption(
-    report: GraspReport, title: str, colour: str, colours: Iterable[Key]
+    report: GraspReport,
+    title: str,
+    colour: str,
+    colours: Iterable[Key],
+    hold: Hold | None = None,
 ) -> str:
     """The caption as HTML, every text escaped.
 
@@ -65,16 +70,19 @@ def caption(
         title: The scene's title, as plain text.
         colour: The verdict's CSS colour.
         colours: What the colours stand for.
+        hold: How it holds, where that is shown.
 
     Returns:
         HTML.
     """
     words = escape(verdict_words(report))
+    held = [section("Hold", hold_rows(hold))] if hold else []
     return "\n".join(
         (
             f"<h1>{escape(title)}</h1>",
             f'<p class="verdict" style="border-color: {escape(colour)}">{words}</p>',
             section("Contact", contact_rows(report)),
+            *held,
             legend(colours),
             section("Foot", foot_rows(report.foot)),
             section("Branch", branch_rows(report)),
@@ -103,6 +111,24 @@ def contact_rows(report: GraspReport) -> dict[str, str]:
         nearest: lengths(abs(least) if np.any(report.penetrating) else least),
         "Between fingers": lengths(float(report.finger_clearance)),
         "Tolerance": f"{report.tolerance * 1e3:.1e} mm",
+    }
+
+
+def hold_rows(hold: Hold) -> dict[str, str]:
+    """What friction makes of the contacts, name by value.
+
+    Args:
+        hold: The record.
+
+    Returns:
+        Plain texts.
+    """
+    return {
+        "Held": "yes" if hold.held else "no",
+        "Friction": f"{hold.strength.friction.coefficient:g}",
+        "Quality": f"{hold.quality.low:.3f} to {hold.quality.high:.3f}",
+        "Each contact presses": f"{hold.strength.normal_force:g} N at most",
+        "Largest pull": f"{hold.pull.force:.3g} N",
     }
 
 

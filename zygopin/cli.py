@@ -229,7 +229,7 @@ def _show(shown: _Shown, html: Path | None, as_json: bool) -> None:
     if html is not None:
         from zygopin.scene import export_scene
 
-        export_scene(report, html)
+        export_scene(report, html, hold=hold)
     if as_json:
         document = output.report_document(report, difference, hold, shown.reason)
         click.echo(json.dumps(document, indent=2, allow_nan=False))

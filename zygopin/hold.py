@@ -15,7 +15,7 @@ from zygopin.closure import (
 )
 from zygopin.contacts import Contacts, branch_contacts
 from zygopin.grasp import GraspReport
-from zygopin.load import PullLimit, pull_limit
+from zygopin.load import PullLimit, pull_limit, unit_direction
 from zygopin.strength import Strength
 
 UP = (0.0, 0.0, 1.0)
@@ -62,7 +62,8 @@ def check_hold(
         ParameterError: A batch of stances, or a direction of length 0.
     """
     if report.touching.ndim == 1 and not report.touching.any():
-        nothing = PullLimit(0.0, 0.0, np.zeros((0, 3)), 0.0)
+        unit = unit_direction(direction)
+        nothing = PullLimit(unit, 0.0, 0.0, np.zeros((0, 3)), 0.0)
         none = (np.inf, np.inf)
         return Hold(None, strength, False, ClosureQuality(0.0, 0.0), none, nothing)
     contacts = branch_contacts(report)

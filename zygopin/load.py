@@ -31,12 +31,14 @@ class PullLimit:
     """The largest pull that the contacts balance, and how they do.
 
     Attributes:
+        direction: Unit direction of the pull, shape (3,).
         force: The largest pull [N] that the inscribed pyramids bear: a hold.
         bound: What the circumscribed pyramids bear [N]: no pull beyond it holds.
         contact_forces: Forces on the foot that balance `force` [N], shape (N, 3).
         residual: What they leave unbalanced [N].
     """
 
+    direction: Floats
     force: float
     bound: float
     contact_forces: Floats
@@ -84,7 +86,7 @@ def pull_limit(
     Raises:
         ParameterError: A direction of length 0, or shapes that do not fit.
     """
-    unit = _unit(direction)
+    unit = unit_direction(direction)
     pull = contacts.wrench_at(unit, checks.places("point", point))
     still = np.zeros(6) if load is None else checks.array("load", load, last=6)
     force, forces = _largest(contacts, strength, pull, still)
@@ -92,7 +94,7 @@ def pull_limit(
     left = contacts.wrenches(forces).sum(axis=0) + force * pull
     left += still * (force > 0)
     residual = float(np.linalg.norm(left))
-    return PullLimit(force, max(force, bound), forces, residual)
+    return PullLimit(unit, force, max(force, bound), forces, residual)
 
 
 def tilt_limit(
@@ -218,8 +220,18 @@ def _joint_rows(
     return rows, [tension] * toes.shape[1] + [(0.0, None)] * stops.shape[1]
 
 
-def _unit(direction: ArrayLike) -> Floats:
-    """A direction of length 1."""
+def unit_direction(direction: ArrayLike) -> Floats:
+    """A direction of length 1.
+
+    Args:
+        direction: The direction, of any length, shape (3,).
+
+    Returns:
+        Unit vector, shape (3,).
+
+    Raises:
+        ParameterError: It has length 0, or another shape.
+    """
     vector = checks.places("direction", direction)
     checks.shaped("direction", vector, (3,))
     length = float(np.linalg.norm(vector))

@@ -31,6 +31,8 @@ from zygopin.errors import ParameterError
 from zygopin.files import write_text
 from zygopin.foot import Foot
 from zygopin.grasp import GraspReport
+from zygopin.hold import Hold
+from zygopin.hold_drawing import draw_hold, pull_arrow
 from zygopin.solids import Paint
 from zygopin.viewer import Recorder, page, set_stage
 
@@ -39,7 +41,11 @@ WIDE_BRANCH = 0.8
 
 
 def export_scene(
-    report: GraspReport, path: Path | str, *, title: str | None = None
+    report: GraspReport,
+    path: Path | str,
+    *,
+    title: str | None = None,
+    hold: Hold | None = None,
 ) -> Path:
     """Write a grasp as one HTML file with meshcat's viewer inside.
 
@@ -50,6 +56,7 @@ def export_scene(
         report: What `check_grasp` returned for one configuration.
         path: The file; its folders are made where they are missing.
         title: Title in plain text; None: the foot's name and the branch's radius.
+        hold: What `check_hold` returned for it, to show friction cones and forces.
 
     Returns:
         The path.
@@ -60,23 +67,25 @@ def export_scene(
     """
     _check_single(report)
     title = _default_title(report) if title is None else title
-    view = grasp_view(report)
+    view = grasp_view(report, hold)
     recorder = Recorder()
     set_stage(recorder, view)
     canvas = Canvas(recorder, view.target, view.unit)
     draw_foot(canvas, report.foot, report.bones)
     draw_branch(canvas, report.branch, drawn_stretch(report))
     draw_contacts(canvas, report)
-    arm = draw_axes(canvas, view)
-    words = caption(report, title, verdict_paint(report).css, _legend(report.foot, arm))
+    forces = draw_hold(canvas, hold, report.foot, report.bones[0, 0]) if hold else []
+    legend = [*_legend(report.foot, draw_axes(canvas, view)), *keys(forces)]
+    words = caption(report, title, verdict_paint(report).css, legend, hold)
     return write_text(path, page(recorder, view, title, words))
 
 
-def grasp_view(report: GraspReport) -> View:
+def grasp_view(report: GraspReport, hold: Hold | None = None) -> View:
     """The view that frames the foot, and a branch of the foot's own order of size.
 
     Args:
         report: Of one configuration.
+        hold: How it holds, where its pull is shown.
 
     Returns:
         The view.
@@ -86,6 +95,9 @@ def grasp_view(report: GraspReport) -> View:
         ends = rims(report.branch, infinite_stretch(report))
         points = np.concatenate([points, ends])
         radii = np.concatenate([radii, np.zeros(len(ends))])
+    if hold is not None and hold.pull.force > 0:
+        arrow = pull_arrow(hold, report.foot, report.bones[0, 0])
+        points, radii = np.concatenate([points, arrow]), np.append(radii, [0.0, 0.0])
     return framed(points, radii, grasp_direction(report.branch))
 
 
