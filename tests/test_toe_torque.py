@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -13,10 +14,11 @@ from zygopin.contacts import Contacts, Friction, branch_contacts
 from zygopin.errors import ParameterError
 from zygopin.foot import Finger, Foot
 from zygopin.grasp import check_grasp
+from zygopin.hold import UP
 from zygopin.load import pull_limit
 from zygopin.model import FootModel
 from zygopin.strength import Strength
-from zygopin.toe_torque import tendon_of, torque_matrix
+from zygopin.toe_torque import joint_drive, tendon_drive, torque_matrix
 
 
 @pytest.mark.parametrize("name", ["parrot", "owl"])
@@ -58,23 +60,30 @@ def test_a_toe_of_one_joint_presses_with_tension_times_arm_over_lever():
     branch = Branch(0.015, (0.04, 0, -0.02))
     report = check_grasp(foot, np.zeros(1), branch)
     contacts = branch_contacts(report)
-    tendon = tendon_of(FootModel(foot), report, contacts, tension=8.0)
+    tendon = tendon_drive(FootModel(foot), report, contacts, tension=8.0)
     free = replace(tendon, straight=np.array([False]))
     firm = Strength(100.0, Friction(0.0), free)
     down = pull_limit(contacts, firm, [0, 0, -1], point=[0.04, 0, 0])
-    assert tendon.arms.tolist() == [0.005]
+    assert tendon.torques.tolist() == [[8.0 * 0.005]]
     assert down.force == pytest.approx(8.0 * 0.005 / 0.04)
     # On its open stop the toe bears what the branch does: the stop closes it.
     stopped = Strength(100.0, Friction(0.0), tendon)
     rest = pull_limit(contacts, stopped, [0, 0, -1], point=[0.04, 0, 0])
     assert rest.force == pytest.approx(100.0)
+    # The drive alone bounds it too, and a motor at the joint does as the tendon.
+    alone = Strength(math.inf, Friction(0.0), free)
+    motor = joint_drive(FootModel(foot), report, contacts, 0.04)
+    own = Strength(math.inf, Friction(0.0), replace(motor, straight=free.straight))
+    for strength in (alone, own):
+        limit = pull_limit(contacts, strength, [0, 0, -1], point=[0.04, 0, 0])
+        assert limit.force == pytest.approx(1.0)
 
 
 def test_one_tension_for_all_joints_bears_less_than_any_torques():
     plan = perched()
     model, contacts = FootModel(plan.report.foot), branch_contacts(plan.report)
-    tendon = tendon_of(model, plan.report, contacts, 5.0)
-    steep = replace(tendon, arms=tendon.arms[0] * 0.5 ** np.arange(14.0))
+    tendon = tendon_drive(model, plan.report, contacts, 5.0)
+    steep = replace(tendon, torques=tendon.torques * 0.5 ** np.arange(14.0)[:, None])
     for direction in np.eye(3):
         alone = pull_limit(contacts, Strength(1, Friction(1.0)), direction)
         for one in (tendon, steep):
@@ -86,16 +95,35 @@ def test_a_pull_under_tension_leaves_every_joint_balanced():
     plan = perched()
     foot, model = plan.report.foot, FootModel(plan.report.foot)
     contacts = branch_contacts(plan.report)
-    arms = foot.radii[0] * foot.rho ** (-3.0 * foot.rank_of_phalanx)
-    tendon = replace(tendon_of(model, plan.report, contacts, 5.0), arms=arms)
+    shares = foot.rho ** (-2.0 * foot.rank_of_phalanx[:, None])
+    tendon = tendon_drive(model, plan.report, contacts, 5.0)
+    tendon = replace(tendon, torques=tendon.torques * shares)
     firm = Strength(1.0, Friction(1.0), tendon)
     limit = pull_limit(contacts, firm, [0, 0, -1])
     assert limit.force > 0.1
     torques = np.einsum("pni,ni->p", tendon.matrix, limit.contact_forces)
     for toe in range(4):
-        tensions = -torques[tendon.finger == toe] / arms[tendon.finger == toe]
+        joints = foot.finger_of_phalanx == toe
+        tensions = -torques[joints] / tendon.torques[joints, toe]
         assert np.ptp(tensions) < 1e-9
-        assert -1e-9 < tensions[0] <= 5.0 * (1 + 1e-9)
+        assert -1e-9 < tensions[0] <= 1 + 1e-9
+
+
+def test_joints_with_motors_bear_no_torque_beyond_theirs():
+    plan = perched()
+    foot, model = plan.report.foot, FootModel(plan.report.foot)
+    contacts, most = branch_contacts(plan.report), 1e-3
+    motors = joint_drive(model, plan.report, contacts, np.full(14, most))
+    limits = []
+    for share in (1.0, 2.0):
+        drive = replace(motors, torques=share * motors.torques)
+        limits.append(
+            pull_limit(contacts, Strength(math.inf, Friction(0.5), drive), UP)
+        )
+    torques = np.einsum("pni,ni->p", motors.matrix, limits[0].contact_forces)
+    assert np.abs(torques).max() == pytest.approx(most)
+    assert limits[1].force == pytest.approx(2 * limits[0].force)
+    assert foot.phalanx_count == len(torques)
 
 
 @pytest.mark.parametrize("tension", [0, -1, np.nan])
@@ -103,11 +131,24 @@ def test_a_tendon_pulls(tension):
     plan = perched()
     model, contacts = FootModel(plan.report.foot), branch_contacts(plan.report)
     with pytest.raises(ParameterError, match="tension"):
-        tendon_of(model, plan.report, contacts, tension)
+        tendon_drive(model, plan.report, contacts, tension)
 
 
 def test_bare_bones_have_no_tendon():
     foot = Foot(rho=2.0, scale=0.1, fingers=(Finger("toe", 1, 0.0),))
     report = check_grasp(foot, np.zeros(1), Branch(0.015, (0.04, 0, -0.015)))
     with pytest.raises(ParameterError, match="thickness"):
-        tendon_of(FootModel(foot), report, branch_contacts(report), 1.0)
+        tendon_drive(FootModel(foot), report, branch_contacts(report), 1.0)
+
+
+@pytest.mark.parametrize("torques", [0.0, -1.0, [1e-3] * 13, math.nan])
+def test_motors_turn_every_joint(torques):
+    plan = perched()
+    model, contacts = FootModel(plan.report.foot), branch_contacts(plan.report)
+    with pytest.raises(ParameterError, match="torques"):
+        joint_drive(model, plan.report, contacts, torques)
+
+
+def test_a_force_without_bound_needs_a_drive():
+    with pytest.raises(ParameterError, match="toe force"):
+        Strength(math.inf, Friction(0.5))

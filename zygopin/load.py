@@ -172,52 +172,55 @@ def _largest(
     """The largest multiple of a pull that is borne beside a load, and the forces.
 
     Forces are in units of the largest normal force. Unknowns are the edges' loads
-    λ ≥ 0, what tendons and stops add, and the multiple: maximise it with
+    λ ≥ 0, what motors and stops add, and the multiple: maximise it with
     Σ λ w + multiple·pull + load = 0 and Σ λ ≤ 1 per contact.
     """
     edges = strength.friction.forces(contacts.normals, around=around)
     count, sides, _ = edges.shape
     wrenches = contacts.wrenches(edges).reshape(-1, 6).T
     size = float(np.linalg.norm(pull))
-    joints, most = _joint_rows(strength, edges)
+    joints, spans = _joint_rows(contacts, strength, edges)
     held = joints.shape[1] - count * sides
     balance = np.hstack([wrenches, np.zeros((6, held)), pull[:, None] / size])
     still = np.hstack([joints, np.zeros((len(joints), 1))])
-    pressed = np.kron(np.eye(count), np.ones(sides))
+    limits = {}
+    if math.isfinite(strength.normal_force):
+        pressed = np.kron(np.eye(count), np.ones(sides))
+        limits["A_ub"] = np.hstack([pressed, np.zeros((count, held + 1))])
+        limits["b_ub"] = np.ones(count)
     best = maximise_last(
         count * sides + held + 1,
         A_eq=np.vstack([balance, still]),
-        b_eq=[*(-load / strength.normal_force), *np.zeros(len(still))],
-        A_ub=np.hstack([pressed, np.zeros((count, held + 1))]),
-        b_ub=np.ones(count),
-        bounds=[(0, None)] * (count * sides) + most + [(0, None)],
+        b_eq=[*(-load / strength.unit), *np.zeros(len(still))],
+        bounds=[(0, None)] * (count * sides) + spans + [(0, None)],
+        **limits,
     )
     if best is None:
         return 0.0, np.zeros((count, 3))
     shares = best.unknowns[: count * sides].reshape(count, sides, 1)
-    forces = (shares * strength.normal_force * edges).sum(axis=1)
-    return max(0.0, best.value) * strength.normal_force / size, forces
+    forces = (shares * strength.unit * edges).sum(axis=1)
+    return max(0.0, best.value) * strength.unit / size, forces
 
 
 def _joint_rows(
-    strength: Strength, edges: Floats
+    contacts: Contacts, strength: Strength, edges: Floats
 ) -> tuple[Floats, list[tuple[float, float | None]]]:
-    """Balance of each joint that a tendon bends, over the tendon's arm.
+    """Balance of each joint that a drive moves, over the unit force and the scale.
 
     Returns:
-        Coefficients of the edges' loads, the toes' tensions, and the stops' torques,
+        Coefficients of the edges' loads, the motors' shares and the stops' torques,
         shape (joints, unknowns); and the bounds of what comes after the edges.
     """
-    tendon, count = strength.tendon, edges.shape[0] * edges.shape[1]
-    if tendon is None:
+    drive, count = strength.drive, edges.shape[0] * edges.shape[1]
+    if drive is None:
         return np.zeros((0, count)), []
-    torques = np.einsum("pni,nmi->pnm", tendon.matrix, edges).reshape(-1, count)
-    toes = tendon.finger[:, None] == np.unique(tendon.finger)
-    stops = np.diag(tendon.straight * 1.0 - tendon.bent)
-    stops = stops[:, tendon.straight | tendon.bent]
-    rows = np.hstack([torques / tendon.arms[:, None], toes, stops])
-    tension = (0.0, tendon.tension / strength.normal_force)
-    return rows, [tension] * toes.shape[1] + [(0.0, None)] * stops.shape[1]
+    pressed = np.einsum("pni,nmi->pnm", drive.matrix, edges).reshape(-1, count)
+    moved = drive.torques / strength.unit
+    stops = contacts.scale * np.diag(drive.straight * 1.0 - drive.bent)
+    stops = stops[:, drive.straight | drive.bent]
+    rows = np.hstack([pressed, moved, stops]) / contacts.scale
+    motors = [(float(low), 1.0) for low in drive.low]
+    return rows, [*motors, *[(0.0, None)] * stops.shape[1]]
 
 
 def unit_direction(direction: ArrayLike) -> Floats:

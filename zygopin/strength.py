@@ -1,7 +1,8 @@
-"""How hard toes press: each joint by itself, or all of a toe by one tendon."""
+"""How hard toes press: a bound on each contact, and on what moves their joints."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,26 +13,25 @@ from zygopin.contacts import Floats, Friction
 
 
 @dataclass(frozen=True, eq=False)
-class Tendon:
-    """Toes each drawn by one tendon: all joints of a toe share its tension.
+class Drive:
+    """What moves the toes' joints, and how strong it is; no other torque acts.
 
-    The tendon passes each joint at its phalanx's skin radius, so that it bends it with
-    tension·radius. A straight joint rests on its stop, which can only close it, a fully
-    bent one on the other, which can only open it; no other torque acts.
+    The balance of joint k: Σ matrix[k]·forces + Σ torques[k]·u + stop = 0, with the
+    motors' shares u between low and 1. The stop of a straight joint can only close it,
+    that of a fully bent one only open it; other joints have none.
 
     Attributes:
-        tension: Largest tension of each toe's tendon [N].
         matrix: Closing torques per unit of contact force [m], shape (P, N, 3).
-        arms: Moment arm of the tendon at each joint [m], shape (P,).
-        finger: Index of each joint's toe, shape (P,).
+        torques: Closing torque of each of U motors at full strength at each joint
+            [N·m], shape (P, U).
+        low: Least share of each motor, 0 where it only closes, shape (U,).
         straight: Joints at their open stop, shape (P,).
         bent: Joints at their closed stop, shape (P,).
     """
 
-    tension: float
     matrix: Floats
-    arms: Floats
-    finger: NDArray[np.intp]
+    torques: Floats
+    low: Floats
     straight: NDArray[np.bool_]
     bent: NDArray[np.bool_]
 
@@ -41,23 +41,25 @@ class Tendon:
 
 @dataclass(frozen=True)
 class Strength:
-    """How hard a toe can press.
+    """How hard a foot can hold.
 
     Attributes:
-        normal_force: Largest normal force of each contact [N].
+        normal_force: Largest normal force of each contact [N]; infinite where the
+            drive alone bounds it.
         friction: Friction of each contact.
-        tendon: The toes' tendons, which then bear all that the joints must; None:
-            each joint has whatever torque it needs.
+        drive: What moves the joints; None: each has whatever torque it needs.
 
     Raises:
-        ParameterError: A force that is not positive.
+        ParameterError: A force that is not positive, or infinite without a drive.
     """
 
     normal_force: float
     friction: Friction
-    tendon: Tendon | None = None
+    drive: Drive | None = None
 
     def __post_init__(self) -> None:
+        if self.drive is not None and self.normal_force == math.inf:
+            return
         value = checks.number(
             "toe force",
             self.normal_force,
@@ -66,3 +68,8 @@ class Strength:
             remedy="give what one phalanx can press, such as 1",
         )
         object.__setattr__(self, "normal_force", value)
+
+    @property
+    def unit(self) -> float:
+        """The force in whose multiples a programme counts [N]."""
+        return self.normal_force if math.isfinite(self.normal_force) else 1.0

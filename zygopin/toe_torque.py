@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pinocchio as pin
+from numpy.typing import ArrayLike
 
 from zygopin import checks, names
 from zygopin.contacts import Contacts, Floats
 from zygopin.errors import ParameterError
-from zygopin.foot import Foot
 from zygopin.grasp import GraspReport
 from zygopin.model import FootModel
-from zygopin.strength import Tendon
+from zygopin.strength import Drive
 
 STOP = 1e-9
 """Control this near to 0 or 1 is at the joint's stop."""
@@ -55,10 +55,13 @@ def torque_matrix(model: FootModel, controls: Floats, contacts: Contacts) -> Flo
     return matrix
 
 
-def tendon_of(
+def tendon_drive(
     model: FootModel, report: GraspReport, contacts: Contacts, tension: float
-) -> Tendon:
-    """The tendons of a stance.
+) -> Drive:
+    """Toes each drawn by one tendon: all joints of a toe share its tension.
+
+    The tendon passes each joint at its phalanx's skin radius, so that it bends it with
+    tension·radius.
 
     Args:
         model: The foot in Pinocchio.
@@ -67,28 +70,72 @@ def tendon_of(
         tension: Largest tension of each toe's tendon [N].
 
     Returns:
-        The tendons.
+        The drive.
 
     Raises:
         ParameterError: A tension that is not positive, or a foot of bare bones, whose
             tendons have no moment arm.
     """
-    foot: Foot = report.foot
-    value = checks.number(
-        "tension",
-        tension,
-        allowed="a positive number of newtons",
-        where=lambda force: force > 0,
-        remedy="give what one tendon pulls, such as 5",
-    )
+    foot = report.foot
+    pull = _positive("tension", tension, "what one tendon pulls, such as 5", "newtons")
     if foot.thickness == 0:
         remedy = "give the foot a thickness, or let each joint have its own torque"
         raise ParameterError("thickness", 0.0, "positive for a tendon's arm", remedy)
-    return Tendon(
-        tension=value,
+    toes = foot.finger_of_phalanx[:, None] == np.arange(len(foot.fingers))
+    torques = pull * foot.radii[:, None] * toes
+    return _drive(model, report, contacts, torques, np.zeros(len(foot.fingers)))
+
+
+def joint_drive(
+    model: FootModel, report: GraspReport, contacts: Contacts, torques: ArrayLike
+) -> Drive:
+    """Joints that each have a motor, which closes and opens alike.
+
+    Args:
+        model: The foot in Pinocchio.
+        report: The verdicts on one stance.
+        contacts: Its contacts.
+        torques: Largest torque of each joint [N·m], shape (P,), or one for all.
+
+    Returns:
+        The drive.
+
+    Raises:
+        ParameterError: A torque that is not positive, or not one for each joint.
+    """
+    count = report.foot.phalanx_count
+    values = np.atleast_1d(checks.array("torques", torques))
+    remedy = "give what a joint turns with, such as 0.01"
+    checks.require("torques", values, values > 0, "a positive number of N·m", remedy)
+    if values.shape != (1,):
+        checks.shaped("torques", values, (count,))
+    own = np.diag(np.broadcast_to(values, (count,)))
+    return _drive(model, report, contacts, own, np.full(count, -1.0))
+
+
+def _drive(
+    model: FootModel,
+    report: GraspReport,
+    contacts: Contacts,
+    torques: Floats,
+    low: Floats,
+) -> Drive:
+    """A drive of a stance, its stops where the controls are at an end."""
+    return Drive(
         matrix=torque_matrix(model, report.controls, contacts),
-        arms=foot.radii,
-        finger=foot.finger_of_phalanx,
+        torques=torques,
+        low=low,
         straight=report.controls <= STOP,
         bent=report.controls >= 1 - STOP,
+    )
+
+
+def _positive(name: str, value: float, example: str, unit: str) -> float:
+    """A positive number with a unit."""
+    return checks.number(
+        name,
+        value,
+        allowed=f"a positive number of {unit}",
+        where=lambda x: x > 0,
+        remedy=f"give {example}",
     )
