@@ -29,11 +29,11 @@ def test_snippets_print_what_the_readme_says(code, printed):
 
 
 def test_every_python_block_has_its_output():
-    assert len(SNIPPETS) == README.count("```python") == 3
+    assert len(SNIPPETS) == README.count("```python") == 4
 
 
 def test_the_commands_work_in_the_order_of_the_readme(tmp_path):
-    assert len(COMMANDS) == 10
+    assert len(COMMANDS) == 11
     for line in COMMANDS:
         words, _, file = line.partition(">")
         result = subprocess.run(
