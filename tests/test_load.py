@@ -11,7 +11,7 @@ from stances import perched, ring
 
 from zygopin.contacts import Contacts, Friction, branch_contacts
 from zygopin.errors import ParameterError
-from zygopin.load import GRAVITY, pull_limit, tilt_limit
+from zygopin.load import GRAVITY, bearing_forces, pull_limit, tilt_limit
 from zygopin.strength import Strength
 
 THREE = ring(0, 120, 240)
@@ -138,6 +138,22 @@ def test_a_direction_of_length_zero_is_refused():
 def test_a_toe_presses_with_a_positive_force(force):
     with pytest.raises(ParameterError, match="toe force"):
         Strength(force, Friction(0.5))
+
+
+def test_the_gentlest_forces_bear_the_load_and_no_gentler_ones_do():
+    contacts = branch_contacts(perched().report)
+    weight = contacts.wrench_at([0, 0.1, -0.4], [0, 0, 0.02])
+    forces = bearing_forces(contacts, strength(0.5, 8, 5.0), weight)
+    assert contacts.wrenches(forces).sum(axis=0) == pytest.approx(-weight, abs=1e-12)
+    most = (forces * contacts.normals).sum(axis=-1).max()
+    assert bearing_forces(contacts, strength(0.5, 8, most * 1.001), weight) is not None
+    assert bearing_forces(contacts, strength(0.5, 8, most * 0.999), weight) is None
+
+
+@pytest.mark.parametrize("load", [np.zeros(6), np.ones(5), np.ones((2, 6))])
+def test_a_load_is_a_wrench(load):
+    with pytest.raises(ParameterError, match="load"):
+        bearing_forces(THREE, strength(0.5), load)
 
 
 # Tilt ----------------------------------------------------------------------------

@@ -15,10 +15,10 @@ from zygopin.errors import ParameterError
 from zygopin.foot import Finger, Foot
 from zygopin.grasp import check_grasp
 from zygopin.hold import UP
-from zygopin.load import pull_limit
+from zygopin.load import bearing_forces, pull_limit
 from zygopin.model import FootModel
 from zygopin.strength import Strength
-from zygopin.toe_torque import joint_drive, tendon_drive, torque_matrix
+from zygopin.toe_torque import joint_drive, joint_torques, tendon_drive, torque_matrix
 
 
 @pytest.mark.parametrize("name", ["parrot", "owl"])
@@ -45,6 +45,30 @@ def test_a_branch_that_pushes_up_opens_the_toe_by_hand():
     contacts = Contacts([[0.03, 0, 0]], [[0, 0, 1]], phalanges=[0])
     matrix = torque_matrix(FootModel(foot), np.zeros(1), contacts)
     assert matrix[0, 0] @ [0, 0, 2] == pytest.approx(-0.06)
+
+
+def test_joints_bear_the_weight_of_a_bird_by_virtual_work():
+    # Toes that turn by δq against torques τ lift the load by the work of its forces.
+    plan = perched()
+    model, contacts = FootModel(plan.report.foot), branch_contacts(plan.report)
+    weight = contacts.wrench_at([0, 0, -0.4], [0, 0, 0.02])
+    forces = bearing_forces(contacts, Strength(5.0, Friction(0.5)), weight)
+    torques = joint_torques(model, plan.controls, contacts, forces)
+    turn = 1e-7 * np.random.default_rng(2).normal(size=14)
+    moved = model.forward(plan.controls + turn / model.foot.omega)
+    before = model.forward(plan.controls)
+    # A contact's point rides on its phalanx: rigid, in the plane of its finger.
+    work = 0.0
+    for point, rank, force in zip(
+        contacts.points, contacts.phalanges, forces, strict=True
+    ):
+        here, there = before[rank], moved[rank]
+        spin = np.cross(here[1] - here[0], there[1] - there[0])
+        spin /= np.sum((here[1] - here[0]) ** 2)
+        work += force @ (there[0] - here[0] + np.cross(spin, point - here[0]))
+    assert torques @ turn == pytest.approx(-work, rel=1e-5)
+    with pytest.raises(ParameterError, match="forces"):
+        joint_torques(model, plan.controls, contacts, forces[1:])
 
 
 def test_a_contact_of_no_phalanx_has_no_torque():

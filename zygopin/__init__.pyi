@@ -46,6 +46,7 @@ from zygopin.inverse import nearest_reachable as nearest_reachable
 from zygopin.kinematics import forward_kinematics as forward_kinematics
 from zygopin.load import PullLimit as PullLimit
 from zygopin.load import TiltLimit as TiltLimit
+from zygopin.load import bearing_forces as bearing_forces
 from zygopin.load import pull_limit as pull_limit
 from zygopin.load import tilt_limit as tilt_limit
 from zygopin.mesh import to_glb as to_glb
@@ -94,6 +95,7 @@ from zygopin.strike_scene import export_strike as export_strike
 from zygopin.tendon import Contact as Contact
 from zygopin.tendon import TendonFoot as TendonFoot
 from zygopin.toe_torque import joint_drive as joint_drive
+from zygopin.toe_torque import joint_torques as joint_torques
 from zygopin.toe_torque import tendon_drive as tendon_drive
 from zygopin.toe_torque import torque_matrix as torque_matrix
 from zygopin.trajectory import StrikeEvent as StrikeEvent

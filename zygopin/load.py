@@ -142,6 +142,34 @@ def tilt_limit(
     return TiltLimit(roll=(right, left), pitch=(up, down))
 
 
+def bearing_forces(
+    contacts: Contacts, strength: Strength, load: ArrayLike
+) -> Floats | None:
+    """The gentlest contact forces that bear a load: the largest normal is least.
+
+    Without a drive; with one, those that ask the least share of its strength, where
+    no joint rests on a stop.
+
+    Args:
+        contacts: The contacts.
+        strength: Largest normal force of each, and their friction.
+        load: The wrench on the foot, such as its weight's (`contacts.wrench_at`) [N],
+            shape (6,).
+
+    Returns:
+        Forces on the foot [N], shape (N, 3); None where it is not borne.
+
+    Raises:
+        ParameterError: A load of 0, or of another shape.
+    """
+    wrench = checks.array("load", load, last=6)
+    checks.shaped("load", wrench, (6,))
+    if not np.any(wrench):
+        raise ParameterError("load", wrench, "not zero", "give what acts on the foot")
+    times, forces = _largest(contacts, strength, wrench, np.zeros(6))
+    return forces / times if times >= 1 else None
+
+
 def _furthest(reach: Callable[[float], float]) -> float:
     """The end of the tilts from 0 on at which the weight is borne all the way.
 

@@ -55,6 +55,28 @@ def torque_matrix(model: FootModel, controls: Floats, contacts: Contacts) -> Flo
     return matrix
 
 
+def joint_torques(
+    model: FootModel, controls: Floats, contacts: Contacts, forces: Floats
+) -> Floats:
+    """Torques that joints must bear so that the toes stay: −Σ matrix·forces.
+
+    Args:
+        model: The foot in Pinocchio.
+        controls: Controls of the stance, shape (P,).
+        contacts: Its contacts, each with its phalanx.
+        forces: Forces on the foot at the contacts [N], shape (N, 3).
+
+    Returns:
+        Closing torque of each joint [N·m], shape (P,).
+
+    Raises:
+        ParameterError: A contact that belongs to no phalanx, or not one force for each.
+    """
+    checks.shaped("forces", np.asarray(forces), contacts.points.shape)
+    matrix = torque_matrix(model, controls, contacts)
+    return np.asarray(-np.einsum("pni,ni->p", matrix, forces))
+
+
 def tendon_drive(
     model: FootModel, report: GraspReport, contacts: Contacts, tension: float
 ) -> Drive:
