@@ -8,8 +8,9 @@ from functools import cache
 import mujoco
 import numpy as np
 
-from zygopin.dynamics import GRAVITY, characteristic_time
+from zygopin.dynamics import characteristic_time
 from zygopin.foot import Foot
+from zygopin.load import GRAVITY
 from zygopin.mjcf import to_mjcf
 from zygopin.paths import PACKAGE_PATH
 from zygopin.poses import standard_branch

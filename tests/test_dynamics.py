@@ -11,14 +11,14 @@ from strategies import reals
 from zygopin.dynamics import (
     CLOSING,
     FREQUENCY,
-    GRAVITY,
     GRIP,
     STEPS,
     characteristic_time,
-    joint_drive,
+    joint_dynamics,
     timestep,
 )
 from zygopin.foot import Finger, Foot
+from zygopin.load import GRAVITY
 
 SCALES = reals(-6, 5).map(lambda x: 10.0**x)
 
@@ -32,7 +32,7 @@ def test_a_joint_by_hand():
     # L = 9.81 m, so T = 1 s; M = 2 kg, ℓ = 0.5 m: W·ℓ = 9.81 N·m.
     foot = one_toe(2 * 9.81)
     assert characteristic_time(foot) == pytest.approx(1.0, rel=1e-15)
-    drive = joint_drive(foot, mass=2.0, lever=0.5)
+    drive = joint_dynamics(foot, mass=2.0, lever=0.5)
     assert drive.stiffness == pytest.approx(490.5)
     assert drive.spring == pytest.approx(196.2)
     assert drive.armature == pytest.approx(490.5 / 256)
@@ -42,8 +42,8 @@ def test_a_joint_by_hand():
 @given(SCALES)
 def test_a_foot_four_times_as_large_moves_alike_but_half_as_fast(scale):
     small, large = one_toe(scale), one_toe(4 * scale)
-    one = joint_drive(small, 1.0, small.size)
-    other = joint_drive(large, 64.0, large.size)
+    one = joint_dynamics(small, 1.0, small.size)
+    other = joint_dynamics(large, 64.0, large.size)
     times = (
         lambda drive: drive.damping / drive.stiffness,
         lambda drive: math.sqrt(drive.armature / drive.stiffness),
@@ -52,7 +52,7 @@ def test_a_foot_four_times_as_large_moves_alike_but_half_as_fast(scale):
     for time in times:
         assert time(other) == pytest.approx(2 * time(one), rel=1e-12)
         assert time(one) / characteristic_time(small) == pytest.approx(
-            time(joint_drive(small, 7.0, 3.0)) / characteristic_time(small)
+            time(joint_dynamics(small, 7.0, 3.0)) / characteristic_time(small)
         )
 
 
@@ -71,13 +71,13 @@ def test_every_joint_is_overdamped(name):
     # The inertia of the whole foot, stretched out about the joint, is an upper bound.
     foot = Foot.preset(name)
     mass, lever = 1.0, float(foot.lengths.min())
-    drive = joint_drive(foot, mass, lever)
+    drive = joint_dynamics(foot, mass, lever)
     own = mass * lever * lever  # a phalanx that weighs as much as the foot
     critical = 2 * math.sqrt(drive.stiffness * (drive.armature + own))
     assert drive.damping > critical
     longest = float(foot.lengths.max())
     toe = mass / 2 * foot.size**2 / 3  # half the foot's mass, a rod of its size
-    base = joint_drive(foot, mass, longest)
+    base = joint_dynamics(foot, mass, longest)
     assert base.damping > 2 * math.sqrt(base.stiffness * (base.armature + toe))
 
 

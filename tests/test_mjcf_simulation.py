@@ -10,10 +10,11 @@ from strategies import feet
 
 from zygopin import keyframes, mjcf
 from zygopin.description import to_urdf
-from zygopin.dynamics import GRAVITY, GRIP, characteristic_time
+from zygopin.dynamics import GRIP, characteristic_time
 from zygopin.errors import DescriptionError
 from zygopin.foot import Finger, Foot
 from zygopin.kinematics import forward_kinematics
+from zygopin.load import GRAVITY
 from zygopin.mjcf import to_mjcf
 from zygopin.names import flexion_joints, phalanx_links, tip_link, turning_link
 from zygopin.paths import PACKAGE_PATH

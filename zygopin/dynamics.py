@@ -21,9 +21,7 @@ import math
 from dataclasses import dataclass
 
 from zygopin.foot import Foot
-
-GRAVITY = 9.81
-"""Acceleration of free fall [m/s²]."""
+from zygopin.load import GRAVITY
 
 GRIP = 50.0
 """Force of a phalanx at its end, over the foot's weight.
@@ -57,7 +55,7 @@ STEPS = 100
 
 
 @dataclass(frozen=True)
-class Drive:
+class JointDynamics:
     """What moves a joint, and what resists.
 
     Attributes:
@@ -100,7 +98,7 @@ def timestep(foot: Foot) -> float:
     return max(step * power for step in (1, 2, 5) if step * power <= longest)
 
 
-def joint_drive(foot: Foot, mass: float, lever: float) -> Drive:
+def joint_dynamics(foot: Foot, mass: float, lever: float) -> JointDynamics:
     """The laws of this module for one joint.
 
     Args:
@@ -115,7 +113,7 @@ def joint_drive(foot: Foot, mass: float, lever: float) -> Drive:
     stiffness = GRIP * unit
     time = characteristic_time(foot)
     period = time / FREQUENCY
-    return Drive(
+    return JointDynamics(
         stiffness=stiffness,
         spring=RETURN * unit,
         armature=stiffness * period * period,

@@ -16,8 +16,8 @@ from zygopin.errors import ParameterError
 from zygopin.programme import maximise_last
 from zygopin.strength import Strength
 
-GRAVITY = 9.80665
-"""Standard acceleration of free fall [m/s²]."""
+GRAVITY = 9.81
+"""Acceleration of free fall [m/s²], as simulators have it."""
 
 TILT_TOLERANCE = 1e-4
 """Width of the interval to which the largest tilt is narrowed [rad]."""

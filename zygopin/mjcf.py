@@ -13,6 +13,7 @@ from zygopin import dynamics, names
 from zygopin.adjacency import touching_links
 from zygopin.errors import DescriptionError
 from zygopin.foot import Foot
+from zygopin.load import GRAVITY
 from zygopin.masses import Inertial
 from zygopin.mjcf_bodies import add_bodies, brief, exact
 from zygopin.simulated import SimulatedFoot
@@ -135,7 +136,7 @@ def _add_settings(root: ET.Element, foot: SimulatedFoot) -> None:
     step = dynamics.timestep(foot.foot)
     compiler = {"angle": "radian", "eulerseq": "XYZ"}  # roll, pitch, yaw, as in a URDF
     ET.SubElement(root, "compiler", compiler)
-    option = {"timestep": brief(step), "gravity": f"0 0 {-dynamics.GRAVITY}"}
+    option = {"timestep": brief(step), "gravity": f"0 0 {-GRAVITY}"}
     # Elliptic cones, friction a hundred times as stiff: else a grasp creeps.
     solver = {"integrator": "implicitfast", "cone": "elliptic", "impratio": "100"}
     ET.SubElement(root, "option", option | solver)

@@ -11,7 +11,7 @@ import numpy as np
 
 from zygopin import names
 from zygopin.description import to_urdf
-from zygopin.dynamics import Drive, joint_drive
+from zygopin.dynamics import JointDynamics, joint_dynamics
 from zygopin.foot import Foot
 from zygopin.keyframes import keyframes
 from zygopin.masses import Inertial, link_inertials
@@ -38,7 +38,7 @@ class SimulatedFoot:
         return found
 
     @cached_property
-    def drives(self) -> dict[str, Drive]:
+    def drives(self) -> dict[str, JointDynamics]:
         """{joint: what drives it}; a reversal has its first phalanx's lever."""
         mass = sum(body.mass for body in self.bodies.values())
         moved: dict[str, str] = {}
@@ -48,7 +48,7 @@ class SimulatedFoot:
                 moved[names.reversal_joint(finger)] = links[0]
             moved |= zip(names.flexion_joints(finger), links, strict=True)
         return {
-            joint: joint_drive(self.foot, mass, self.length(link))
+            joint: joint_dynamics(self.foot, mass, self.length(link))
             for joint, link in moved.items()
         }
 
