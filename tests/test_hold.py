@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import numpy as np
@@ -16,6 +17,7 @@ from zygopin.foot import Foot
 from zygopin.grasp import check_grasp
 from zygopin.hold import check_hold
 from zygopin.load import pull_limit
+from zygopin.output import hold_lines
 from zygopin.strength import Strength
 
 FIRM = Strength(1.0, Friction(0.5))
@@ -53,3 +55,19 @@ def test_a_batch_is_refused():
     )
     with pytest.raises(ParameterError, match="one stance"):
         check_hold(report, FIRM)
+
+
+@pytest.mark.parametrize(
+    ("friction", "least", "words"),
+    [
+        (0.5, (0.0, 1e-6), "held yes at friction 0.5 (any above 0 would close it)"),
+        (0.1, (0.41, 0.42), "held no at friction 0.1 (0.42 or more would close it)"),
+        (0.5, (math.inf, math.inf), "held no at friction 0.5 (none would close it)"),
+    ],
+)
+def test_a_terminal_reads_what_friction_it_takes(friction, least, words):
+    hold = check_hold(perched().report, Strength(1.0, Friction(friction)))
+    held = friction > least[1]
+    said = hold_lines(dataclasses.replace(hold, held=held, least_friction=least))
+    assert said[0].startswith(words)
+    assert all(len(line) <= 80 for line in said)

@@ -153,14 +153,14 @@ def hold_lines(hold: Hold) -> list[str]:
     """
     friction, force = hold.strength.friction.coefficient, hold.strength.normal_force
     least = hold.least_friction[1]
-    needs = f"closes from friction {least:.2g} on"
+    needs = f"{least:.2g} or more would close it"
     if least < NO_FRICTION:
-        needs = "closes with any friction"
+        needs = "any above 0 would close it"
     if not math.isfinite(least):
-        needs = "closes with no friction"
+        needs = "none would close it"
     return [
-        f"held {'yes' if hold.held else 'no'} at friction {friction:g}; {needs}; "
-        f"quality {hold.quality.low:.3f} to {hold.quality.high:.3f}",
+        f"held {'yes' if hold.held else 'no'} at friction {friction:g} ({needs})",
+        f"quality of the hold {hold.quality.low:.3f} to {hold.quality.high:.3f}",
         f"bears a pull up of {hold.pull.force:.3g} N "
         f"where each contact presses {force:g} N at most",
     ]
