@@ -13,6 +13,8 @@ import pytest
 from zygopin import Foot
 
 GRASP = ("perch", "--radius-mm", "8")
+ZEROS = ",".join("0" * 14)
+NO_CONTACT = ("check", "--radius-mm", "8", "--height-mm=-20", "--controls", ZEROS)
 
 
 def run(*arguments: str, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
@@ -337,6 +339,7 @@ def test_help_documents_every_option(command):
         (("--help",), ("numpy", "pinocchio", "fcl", "meshcat", "scipy", "yourdfpy")),
         (("perch", "--help"), ("numpy", "pinocchio", "fcl", "meshcat")),
         (GRASP, ("meshcat", "yourdfpy", "matplotlib")),
+        (NO_CONTACT, ("meshcat", "scipy", "yourdfpy", "matplotlib")),
     ],
 )
 def test_commands_load_only_what_they_use(arguments, absent):

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError
 
 from zygopin.contacts import LARGEST_FRICTION, Contacts, Floats, Friction
 from zygopin.programme import maximise_last
@@ -23,12 +22,13 @@ FRICTION_TOLERANCE = 1e-6
 
 @dataclass(frozen=True)
 class ClosureQuality:
-    """Ferrari and Canny's quality of a grasp, between two pyramids.
+    """Ferrari and Canny's quality of a grasp with round friction cones, in a bracket.
 
     Attributes:
         low: Largest ball about 0 in the hull of the inscribed pyramids' wrenches [N
             per newton of normal force at each contact's edges]; 0 without closure.
-        high: The same of the circumscribed pyramids, at least the cone's.
+        high: How far the round cones' hull reaches at least in one direction, the
+            most adverse of the pyramids' facets: no ball about 0 is larger.
     """
 
     low: float
@@ -64,22 +64,23 @@ def force_closure(contacts: Contacts, friction: Friction) -> bool:
 def closure_quality(contacts: Contacts, friction: Friction) -> ClosureQuality:
     """Ferrari and Canny's ε: how large a wrench is balanced whatever its direction.
 
-    Each edge of a pyramid has a normal force of 1 N; ε is the radius of the largest
-    ball about 0 in the convex hull of their wrenches, so the normal forces of all
-    contacts together are at most 1 N.
+    Each edge of a cone has a normal force of 1 N; ε is the radius of the largest ball
+    about 0 in the convex hull of their wrenches, so the normal forces of all contacts
+    together are at most 1 N.
 
     Args:
         contacts: The contacts; their scale makes torques forces.
         friction: Their friction.
 
     Returns:
-        ε between the inscribed and the circumscribed pyramids.
+        ε of the round cones, between two numbers.
     """
-    low, high = (
-        _ball(_edge_wrenches(contacts, friction, around=around))
-        for around in (False, True)
-    )
-    return ClosureQuality(low=low, high=max(low, high))
+    facets = _facets(_edge_wrenches(contacts, friction))
+    if facets is None:
+        return ClosureQuality(0.0, 0.0)
+    low = max(0.0, float(-facets[:, -1].max()))
+    reach = float(_round_reach(contacts, friction, facets[:, :-1]).min())
+    return ClosureQuality(low=low, high=max(low, reach))
 
 
 def least_friction(contacts: Contacts, edges: int = 8) -> tuple[float, float]:
@@ -99,7 +100,9 @@ def least_friction(contacts: Contacts, edges: int = 8) -> tuple[float, float]:
     most = Friction(LARGEST_FRICTION, edges)
     if not force_closure(contacts, most):
         return math.inf, math.inf
-    low, high = 0.0, 1.0
+    if force_closure(contacts, replace(most, coefficient=FRICTION_TOLERANCE)):
+        return 0.0, FRICTION_TOLERANCE
+    low, high = FRICTION_TOLERANCE, 1.0
     while high < LARGEST_FRICTION and not force_closure(
         contacts, replace(most, coefficient=high)
     ):
@@ -113,21 +116,43 @@ def least_friction(contacts: Contacts, edges: int = 8) -> tuple[float, float]:
     return low * most.rounding, high
 
 
-def _edge_wrenches(
-    contacts: Contacts, friction: Friction, *, around: bool = False
-) -> Floats:
-    """Wrenches of all edges, shape (N·edges, 6)."""
-    forces = friction.forces(contacts.normals, around=around)
-    return contacts.wrenches(forces).reshape(-1, 6)
+def _edge_wrenches(contacts: Contacts, friction: Friction) -> Floats:
+    """Wrenches of all edges of the inscribed pyramids, shape (N·edges, 6)."""
+    return contacts.wrenches(friction.forces(contacts.normals)).reshape(-1, 6)
 
 
-def _ball(wrenches: Floats) -> float:
-    """Radius of the largest ball about 0 in the hull; 0 where 0 is not inside."""
+def _facets(wrenches: Floats) -> Floats | None:
+    """Facets of the hull: outward unit normals and minus their distances from 0.
+
+    Returns:
+        Shape (facets, 7); None where the wrenches lie in a plane, so that no ball fits.
+    """
+    from scipy.spatial import ConvexHull, QhullError  # slow to load: only where used
+
     values = np.linalg.svd(wrenches - wrenches.mean(axis=0), compute_uv=False)
     if len(values) < 6 or values[-1] <= FULL_RANK * values[0]:
-        return 0.0
+        return None
     try:
-        hull = ConvexHull(wrenches)
+        return np.asarray(ConvexHull(wrenches).equations)
     except QhullError:  # flat but for rounding
-        return 0.0
-    return max(0.0, float(-hull.equations[:, -1].max()))
+        return None
+
+
+def _round_reach(contacts: Contacts, friction: Friction, units: Floats) -> Floats:
+    """How far the round cones' wrenches reach along directions.
+
+    Args:
+        contacts: The contacts.
+        friction: Their friction.
+        units: Unit directions of wrenches, shape (D, 6).
+
+    Returns:
+        max over contacts of n·p + μ·|p − (n·p) n|, shape (D,), with the pull p of the
+        direction at the contact: its force, and its torque over the arm.
+    """
+    arms = (contacts.points - contacts.origin) / contacts.scale
+    pulls = units[:, None, :3] + np.cross(units[:, None, 3:], arms)
+    along = (pulls * contacts.normals).sum(axis=-1)
+    across = np.linalg.norm(pulls - along[..., None] * contacts.normals, axis=-1)
+    reach: Floats = (along + friction.coefficient * across).max(axis=-1)
+    return reach
