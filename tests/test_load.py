@@ -134,6 +134,22 @@ def test_a_direction_of_length_zero_is_refused():
         pull_limit(THREE, strength(0.5), [0, 0, 0])
 
 
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [
+        ("point", np.zeros((2, 3))),
+        ("point", [0, 0]),
+        ("point", [0, 0, math.nan]),
+        ("load", np.zeros((2, 6))),
+        ("load", [0, 0, 1]),
+    ],
+)
+def test_a_pull_has_one_point_and_one_load(option, value):
+    with pytest.raises(ParameterError, match=option) as caught:
+        pull_limit(THREE, strength(0.5), [0, 0, 1], **{option: value})
+    assert "\n" not in str(caught.value)
+
+
 @pytest.mark.parametrize("force", [0, -1, math.nan])
 def test_a_toe_presses_with_a_positive_force(force):
     with pytest.raises(ParameterError, match="toe force"):

@@ -86,9 +86,11 @@ def pull_limit(
     Raises:
         ParameterError: A direction of length 0, or shapes that do not fit.
     """
-    unit = unit_direction(direction)
-    pull = contacts.wrench_at(unit, checks.places("point", point))
+    unit, where = unit_direction(direction), checks.places("point", point)
+    checks.shaped("point", where, (3,))
+    pull = contacts.wrench_at(unit, where)
     still = np.zeros(6) if load is None else checks.array("load", load, last=6)
+    checks.shaped("load", still, (6,))
     force, forces = _largest(contacts, strength, pull, still)
     bound, _ = _largest(contacts, strength, pull, still, around=True)
     left = contacts.wrenches(forces).sum(axis=0) + force * pull

@@ -188,8 +188,7 @@ def _hold(prefer: Preference, strength: Strength, report: GraspReport) -> float:
     contacts = branch_contacts(report)
     if prefer == "quality":
         return closure_quality(contacts, strength.friction).low
-    away = -contacts.origin if np.any(contacts.origin) else BELOW
-    return pull_limit(contacts, strength, away).force
+    return pull_limit(contacts, strength, -contacts.origin).force
 
 
 def _all_poses(foot: Foot, branches: Branch, levels: int) -> list[FingerPoses]:
