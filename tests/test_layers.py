@@ -83,7 +83,7 @@ LAYERS = (
     "strike",
     "attack",
     "engagement",
-    "sweep",
+    "phalanx_sweep",
     "remark",
     "camera",
     "solids",

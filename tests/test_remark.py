@@ -31,7 +31,7 @@ from zygopin import (
 )
 from zygopin.engagement import engaged_junctions
 from zygopin.errors import ParameterError, UnknownNameError
-from zygopin.sweep import merged
+from zygopin.phalanx_sweep import merged
 
 PAPER, OWL = Foot.preset("paper"), Foot.preset("owl")
 FIRSTS = [part.start for part in PAPER.finger_slices.values()]

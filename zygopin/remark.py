@@ -39,8 +39,8 @@ from zygopin.grasp import Criteria
 from zygopin.kinematics import as_azimuths
 from zygopin.motion import Motion
 from zygopin.obstacle import Obstacle, Sphere, as_obstacle
+from zygopin.phalanx_sweep import Interval, Sweep, about_z, merged
 from zygopin.reach import find_finger
-from zygopin.sweep import Interval, Sweep, about_z, merged
 
 FINEST = 1e-7
 """Least tolerance over the foot's size: at a smaller clearance the normal is off by

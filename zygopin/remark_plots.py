@@ -29,8 +29,8 @@ from zygopin.figures import (
     unit_of,
 )
 from zygopin.foot import Foot
+from zygopin.phalanx_sweep import Sweep, about_z
 from zygopin.remark import Counterexample, counterexample
-from zygopin.sweep import Sweep, about_z
 
 STAGES = 4
 """Stages that are drawn before the ball is lost, and after."""
