@@ -13,6 +13,7 @@ LAYERS = (
     "errors",
     "checks",
     "rotations",
+    "expansion",
     "control_system",
     "ifs",
     "word_answer",
