@@ -1,0 +1,327 @@
+"""Poses with which one finger lies on many branches, found by search.
+
+Of the controls up to a phalanx all but the last are free; the last is closed form: its
+joint turns until the phalanx lies on a tangent from its junction to the circle.
+Branches next to one another take poses from each other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from zygopin.branch_grid import BranchGrid
+from zygopin.projection import (
+    PALM,
+    Complexes,
+    Floats,
+    ProjectedFinger,
+    wrap_angle,
+)
+
+Booleans = NDArray[np.bool_]
+Indices = NDArray[np.intp]
+
+STRIDES = (8, 4, 2, 1)
+"""Every how many rows and columns are searched, one grid after the other."""
+
+SAMPLES = 700
+"""Poses of a regular grid that are tried on each branch of the coarsest search."""
+
+STEPS = (0.2, 0.1, 0.05, 0.02, 0.01, 0.003)
+"""Sizes of the random steps by which poses are improved, in controls."""
+
+STRAIGHT = 1e-12
+"""Turn back of a joint that is rounding [rad]."""
+
+ROUNDING = 1e-12
+"""Excess of a pose that fits, over the length of the first phalanx."""
+
+FARTHEST = 2 * np.pi
+"""More than how far round any contact lies [rad]."""
+
+NOWHERE = 10.0
+"""More than any angle is missed by: poses that do not fit score below −NOWHERE."""
+
+
+@dataclass(frozen=True, eq=False)
+class TangentPoses:
+    """Poses of one finger on the branches of a grid, for each phalanx the best one.
+
+    Attributes:
+        wrap: How far round the contact lies [rad], shape (K, H, R); NaN without.
+        controls: Controls, shape (K, H, R, K): joints behind the tangent phalanx are
+            straight, so that nothing beyond it enters the branch.
+    """
+
+    wrap: Floats
+    controls: Floats
+
+    def best(self, count: int, aim: float) -> tuple[Floats, Floats]:
+        """The pose wrapped nearest to an angle, if the finger had so many phalanges.
+
+        Args:
+            count: Number of phalanges.
+            aim: The angle [rad].
+
+        Returns:
+            Wrap, shape (H, R), NaN without; controls, shape (H, R, count).
+        """
+        missed = np.abs(self.wrap[:count] - aim)
+        rank = np.argmin(np.where(np.isnan(missed), np.inf, missed), axis=0)[None]
+        wrap = np.take_along_axis(self.wrap[:count], rank, axis=0)[0]
+        chosen = np.take_along_axis(self.controls[:count], rank[..., None], axis=0)
+        return wrap, chosen[0, ..., :count]
+
+
+class Contact(NamedTuple):
+    """Phalanges laid on their circles: the closing joint and what it makes.
+
+    Attributes:
+        control: Control of the joint, above 1 where it cannot turn that far.
+        wrap: How far round the contact lies [rad].
+        excess: By how much the pose fails to fit [m]; 0: it fits.
+    """
+
+    control: Floats
+    wrap: Floats
+    excess: Floats
+
+
+def tangent_poses(
+    finger: ProjectedFinger,
+    grid: BranchGrid,
+    wanted: Booleans,
+    *,
+    side: int = PALM,
+    solid: bool = True,
+    aim: float = FARTHEST,
+) -> TangentPoses:
+    """Poses of a finger on each branch, wrapped as near to an angle as can be found.
+
+    Args:
+        finger: The finger, seen along the branches.
+        grid: The branches.
+        wanted: Branches for which poses are sought, for each phalanx as the tangent
+            one, shape (K, H, R).
+        side: `PALM` or `BACK`, the side of the toe that touches.
+        solid: Keep the phalanges before the tangent one out of the branch.
+        aim: The angle [rad]; by default as far round as can be.
+
+    Returns:
+        The poses; those found are exact up to rounding, none found proves nothing.
+    """
+    count = len(finger.lengths)
+    wrap = np.full((count, *grid.shape), np.nan)
+    controls = np.zeros((count, *grid.shape, count))
+    ranks = () if finger.edgewise else reversed(range(count))
+    sought = [i for i in ranks if wanted[i].any()]
+    searches = (
+        _Search(finger, grid, wanted[i], i + 1, side, solid, aim) for i in sought
+    )
+    with ThreadPoolExecutor() as pool:
+        for i, table in zip(sought, pool.map(_Search.run, searches), strict=True):
+            wrap[i] = np.where(table.score > -NOWHERE, table.wrap, np.nan)
+            controls[i, ..., :i] = table.free
+            controls[i, ..., i] = table.closing
+    return TangentPoses(wrap, controls)
+
+
+def lay_on(
+    finger: ProjectedFinger,
+    free: Floats,
+    centre: Complexes,
+    radius: Floats,
+    side: int,
+    solid: bool,
+) -> Contact:
+    """Lay a phalanx on its circle, by the joint before it.
+
+    Args:
+        finger: The finger.
+        free: Controls of the joints before that one, shape (…, k − 1).
+        centre: Centres of the circles [m], shape (…).
+        radius: Their radii without skin [m], shape (…).
+        side: `PALM` or `BACK`, the side of the toe that touches.
+        solid: Whether the phalanges before stay out of the circle.
+
+    Returns:
+        The contact, shape (…).
+    """
+    rank = free.shape[-1] + 1
+    junction, pitch = -centre, np.full(free.shape[:-1], finger.orientation)
+    excess = np.zeros(free.shape[:-1])
+    for earlier in range(rank - 1):
+        pitch = pitch + finger.omega * free[..., earlier]
+        step = finger.lengths[earlier] * finger.direction(pitch)
+        if solid:
+            depth = radius + finger.radii[earlier] - _distance(junction, step)
+            excess += np.maximum(depth, 0.0)
+        junction = junction + step
+    skin = radius + finger.radii[rank - 1]
+    square = junction.real**2 + junction.imag**2
+    inside = square < skin**2
+    tangent = np.sqrt(np.where(inside, 0.0, square - skin**2))
+    # Turned from the centre's direction by the angle whose sine is skin over reach.
+    direction = -junction * (tangent + 1j * side * skin)
+    wanted, stretch = finger.pitch(direction)
+    turn = np.mod(wanted - pitch, 2 * np.pi)
+    turn = np.where(turn > 2 * np.pi - STRAIGHT, 0.0, turn)
+    length = finger.lengths[rank - 1]
+    over = np.minimum(np.maximum(turn - finger.omega, 0.0), 2 * np.pi - turn)
+    excess += np.where(inside, skin - np.sqrt(square), 0.0) + length * over
+    excess += np.maximum(tangent / stretch - length, 0.0)
+    wrap = wrap_angle(1j * side * direction, centre)
+    return Contact(turn / finger.omega, wrap, excess)
+
+
+def _distance(start: Complexes, step: Complexes) -> Floats:
+    """Distance of segments from the origin."""
+    square = step.real**2 + step.imag**2
+    along = -(start.real * step.real + start.imag * step.imag) / square
+    nearest = start + np.minimum(np.maximum(along, 0.0), 1.0) * step
+    return np.asarray(np.sqrt(nearest.real**2 + nearest.imag**2))
+
+
+class _Table(NamedTuple):
+    """The best pose so far of each branch of a grid."""
+
+    score: Floats
+    wrap: Floats
+    free: Floats
+    closing: Floats
+
+    @classmethod
+    def empty(cls, shape: tuple[int, int], rank: int) -> _Table:
+        return cls(
+            np.full(shape, -np.inf),
+            np.zeros(shape),
+            np.zeros((*shape, rank - 1)),
+            np.zeros(shape),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class _Search:
+    """The search for poses in which one phalanx touches with one side."""
+
+    finger: ProjectedFinger
+    grid: BranchGrid
+    wanted: Booleans
+    rank: int
+    side: int
+    solid: bool
+    aim: float
+
+    def run(self) -> _Table:
+        """From the coarse grid to the fine one, each from the poses of the last."""
+        # A generator for each search, so that threads do not change what is found.
+        rng = np.random.default_rng((self.rank, self.side + 1))
+        strides = [s for s in STRIDES if s == 1 or s <= min(self.wanted.shape) // 4]
+        table, places = self._sampled(strides[0])
+        self._improve(table, places, rng)
+        for stride in strides[1:]:
+            table, places = self._refined(table, places, stride)
+            self._improve(table, places, rng)
+        return table
+
+    def _sampled(self, stride: int) -> tuple[_Table, tuple[Indices, Indices]]:
+        """The best of a regular grid of poses."""
+        places = self._places(stride)
+        table = _Table.empty((len(places[0]), len(places[1])), self.rank)
+        where = self._where(places)
+        for free in _regular(self.rank - 1):
+            tried = np.broadcast_to(free, (len(where[0]), self.rank - 1))
+            self._offer(table, places, where, tried)
+        return table, places
+
+    def _refined(
+        self, old: _Table, places: tuple[Indices, Indices], stride: int
+    ) -> tuple[_Table, tuple[Indices, Indices]]:
+        """A finer grid, each branch with the best of its neighbours' poses."""
+        new = self._places(stride)
+        table = _Table.empty((len(new[0]), len(new[1])), self.rank)
+        where = self._where(new)
+        sides: tuple[tuple[Indices, Indices], ...] = tuple(
+            (
+                np.searchsorted(coarse, fine, side="right") - 1,
+                np.searchsorted(coarse, fine, side="left"),
+            )
+            for coarse, fine in zip(places, new, strict=True)
+        )
+        for rows, columns in product(*sides):
+            self._offer(table, new, where, old.free[rows[where[0]], columns[where[1]]])
+        return table, new
+
+    def _improve(
+        self,
+        table: _Table,
+        places: tuple[Indices, Indices],
+        rng: np.random.Generator,
+    ) -> None:
+        """Random steps, and the neighbours' poses."""
+        if self.rank == 1:
+            return
+        where = self._where(places)
+        for size in STEPS:
+            for _ in range(2):
+                free = table.free[where]
+                step = size * rng.standard_normal(free.shape)
+                self._offer(table, places, where, np.clip(free + step, 0.0, 1.0))
+            for rows, columns in ((-1, 0), (1, 0), (0, -1), (0, 1)):
+                near = (
+                    np.clip(where[0] + rows, 0, len(places[0]) - 1),
+                    np.clip(where[1] + columns, 0, len(places[1]) - 1),
+                )
+                self._offer(table, places, where, table.free[near])
+
+    def _places(self, stride: int) -> tuple[Indices, Indices]:
+        """Rows and columns of a coarser grid, the last ones included."""
+        rows, columns = (
+            np.unique(np.append(np.arange(0, n, stride), n - 1))
+            for n in self.grid.shape
+        )
+        return rows, columns
+
+    def _where(self, places: tuple[Indices, Indices]) -> tuple[Indices, ...]:
+        """Branches of a coarser grid for which poses are wanted, or near one is."""
+        return np.nonzero(self.wanted[np.ix_(*places)])
+
+    def _offer(
+        self,
+        table: _Table,
+        places: tuple[Indices, Indices],
+        where: tuple[Indices, ...],
+        free: Floats,
+    ) -> None:
+        """Keep the poses that are better than what the table has."""
+        rows, columns = places[0][where[0]], places[1][where[1]]
+        centre = self.grid.centres(self.finger)[rows]
+        radius = self.grid.radii[columns]
+        made = lay_on(self.finger, free, centre, radius, self.side, self.solid)
+        excess = made.excess / self.finger.lengths[0]
+        score = np.where(
+            excess <= ROUNDING, -np.abs(made.wrap - self.aim), -NOWHERE - excess
+        )
+        better = score > table.score[where]
+        kept = tuple(axis[better] for axis in where)
+        table.score[kept] = score[better]
+        table.wrap[kept] = made.wrap[better]
+        table.free[kept] = free[better]
+        table.closing[kept] = made.control[better]
+
+
+def _regular(count: int) -> Iterator[Floats]:
+    """A regular grid of controls, of at most about `SAMPLES` points."""
+    if count == 0:
+        return iter([np.zeros(0)])
+    most = int(min(max(SAMPLES ** (1 / count) + 1e-9, 2), 33))
+    return (
+        np.array(each) for each in product(np.linspace(0.0, 1.0, most), repeat=count)
+    )

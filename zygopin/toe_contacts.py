@@ -1,0 +1,176 @@
+"""For every finger and branch: a pose in which it is tangent, or the proof of none."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from zygopin.branch_grid import BranchGrid
+from zygopin.foot import Foot
+from zygopin.projection import BACK, PALM, Floats, ProjectedFinger
+from zygopin.tangent_poses import FARTHEST, tangent_poses
+from zygopin.tangent_proof import Criterion, unproved
+
+Booleans = NDArray[np.bool_]
+Codes = NDArray[np.int8]
+
+
+class Answer(IntEnum):
+    """What is known of a branch."""
+
+    NO = 0
+    YES = 1
+    UNDECIDED = -1
+    HOLDS_BASE = -2
+
+
+@dataclass(frozen=True, eq=False)
+class ToeContacts:
+    """What is known of each finger's tangency on each branch of a grid.
+
+    Attributes:
+        answer: `Answer` for each finger and branch, shape (F, H, R).
+        wrap: How far round the contact of the pose lies [rad], shape (F, H, R); NaN
+            without one.
+        controls: The poses, for each finger of shape (H, R, K); 0 without one.
+    """
+
+    answer: Codes
+    wrap: Floats
+    controls: tuple[Floats, ...]
+
+    @property
+    def found(self) -> Booleans:
+        """Where there is a pose, shape (F, H, R)."""
+        return np.isfinite(self.wrap)
+
+
+class ToeSearch:
+    """A foot's fingers seen along the branches of a grid; alike ones share work."""
+
+    def __init__(self, foot: Foot, grid: BranchGrid) -> None:
+        self.grid = grid
+        self.fingers = [
+            ProjectedFinger.of(foot, i, grid.axis) for i in range(len(foot.fingers))
+        ]
+        self.counts = [finger.phalanges for finger in foot.fingers]
+
+    def contacts(self, wanted: Booleans, criterion: Criterion) -> ToeContacts:
+        """Poses wrapped as far as they are found, proofs where none is.
+
+        Args:
+            wanted: Branches in question for each finger, shape (F, H, R).
+            criterion: What counts as a tangent phalanx.
+
+        Returns:
+            What is known; `Answer.UNDECIDED` also where nothing was asked.
+        """
+        wrap, controls = self.poses(wanted, solid=criterion.solid)
+        answer = np.where(np.isfinite(wrap), Answer.YES, Answer.UNDECIDED)
+        missing = wanted & np.isnan(wrap)
+        answer[missing & ~self.possible(missing, criterion)] = Answer.NO
+        return ToeContacts(answer.astype(np.int8), wrap, controls)
+
+    def poses(
+        self, wanted: Booleans, *, solid: bool = True, aim: float = FARTHEST
+    ) -> tuple[Floats, tuple[Floats, ...]]:
+        """Poses wrapped as near to an angle as they are found.
+
+        Args:
+            wanted: Branches in question for each finger, shape (F, H, R).
+            solid: Keep the phalanges before the tangent one out of the branch.
+            aim: The angle [rad]; by default as far round as can be.
+
+        Returns:
+            Wrap [rad], shape (F, H, R), NaN without a pose; controls for each finger,
+            shape (H, R, K).
+        """
+        shape = (len(self.fingers), *self.grid.shape)
+        wrap = np.full(shape, np.nan)
+        controls = tuple(np.zeros((*self.grid.shape, count)) for count in self.counts)
+        for side in (PALM, BACK):
+            # The toe's back only where its palm finds nothing: it is seldom needed.
+            missing = wanted & np.isnan(wrap)
+            for members in self._alike():
+                leader = self.fingers[members[0]]
+                asked = self._by_rank(members, missing)
+                poses = tangent_poses(
+                    leader, self.grid, asked, side=side, solid=solid, aim=aim
+                )
+                for finger in members:
+                    found, pose = poses.best(self.counts[finger], aim)
+                    new = missing[finger] & np.isfinite(found)
+                    wrap[finger][new] = found[new]
+                    controls[finger][new] = pose[new]
+        return wrap, controls
+
+    def possible(
+        self, asked: Booleans, criterion: Criterion, beyond: Floats | None = None
+    ) -> Booleans:
+        """Branches for which tangency was not disproved.
+
+        Args:
+            asked: Branches in question for each finger, shape (F, H, R).
+            criterion: What counts as a tangent phalanx.
+            beyond: Only contacts wrapped farther than this count [rad], (F, H, R).
+
+        Returns:
+            Those that are left, shape (F, H, R).
+        """
+        left = np.zeros_like(asked)
+        for members in self._alike():
+            leader = self.fingers[members[0]]
+            least = None
+            if beyond is not None:
+                bounds = np.where(asked, beyond, np.inf)
+                least = bounds[members].min(axis=0)
+            open_ = self._by_rank(members, asked)
+            found = unproved(leader, self.grid, open_, criterion, beyond=least)
+            for finger in members:
+                some = found[: self.counts[finger]].any(axis=0)
+                left[finger] = asked[finger] & some
+        return left
+
+    def _by_rank(self, members: list[int], asked: Booleans) -> Booleans:
+        """Branches in question for each phalanx of the longest of alike fingers."""
+        ranks = range(self.counts[members[0]])
+        return np.stack(
+            [
+                np.any([asked[i] for i in members if self.counts[i] > rank], axis=0)
+                for rank in ranks
+            ]
+        )
+
+    def _alike(self) -> list[list[int]]:
+        """Fingers that are prefixes of one another, the longest first."""
+        order = sorted(range(len(self.fingers)), key=lambda i: -self.counts[i])
+        groups: list[list[int]] = []
+        for finger in order:
+            for group in groups:
+                if self._same(group[0], finger):
+                    group.append(finger)
+                    break
+            else:
+                groups.append([finger])
+        return groups
+
+    def _same(self, one: int, other: int) -> bool:
+        """Whether two fingers are one chain and see the branches alike."""
+        lines = (self.grid.line(self.fingers[i]) for i in (one, other))
+        (origin, step), (origin_too, step_too) = lines
+        size = self.fingers[one].lengths[0]
+        return (
+            self.fingers[one].same_chain(self.fingers[other])
+            and abs(origin - origin_too) <= 1e-12 * size
+            and abs(step - step_too) <= 1e-12
+        )
+
+
+def decided(answer: Codes, wanted: Booleans) -> float:
+    """Share of the branches in question with a yes or no."""
+    count = int(wanted.sum())
+    known = (answer == Answer.YES) | (answer == Answer.NO)
+    return float((known & wanted).sum() / count) if count else 1.0
