@@ -24,10 +24,10 @@ from zygopin.control_system import Levels
 from zygopin.crossings import SystemCounts, crossings
 from zygopin.foot import Foot
 from zygopin.grasp import Criteria
+from zygopin.records import joined, taken
 from zygopin.tangent_lines import (
     Placement,
     TangentLines,
-    joined,
     line_blocks,
     line_count,
 )
@@ -149,11 +149,14 @@ def _blocks(search: Search, block: int) -> Iterator[BranchSolutions]:
     held: list[Found] = []
     counts, size = SystemCounts(), 0
     for found, more in _found(search):
-        held.append(found)
-        counts, size = counts + more, size + len(found.height)
-        if size >= block:
-            yield with_verdicts(search, held, counts)
-            held, counts, size = [], SystemCounts(), 0
+        counts += more
+        # At least one part: an empty one brings its counts.
+        for start in range(0, max(1, len(found.height)), block):
+            held.append(taken(found, slice(start, start + block)))
+            size += len(held[-1].height)
+            if size >= block:
+                yield with_verdicts(search, held, counts)
+                held, counts, size = [], SystemCounts(), 0
     if held:
         yield with_verdicts(search, held, counts)
 
@@ -164,11 +167,14 @@ def _found(search: Search) -> Iterator[tuple[Found, SystemCounts]]:
     for one in _lines(search, 0):
         for other in _lines(search, 1):
             missing -= len(one) * len(other)
-            for where, counts in crossings(search.foot, search.placement, one, other):
-                yield Found.at(one, other, where), counts
+            where, counts = crossings(search.foot, search.placement, one, other)
+            found = Found.at(one, other, where)
+            yield found, counts
     if missing:
-        nothing = Found.nothing()
-        yield nothing, SystemCounts(systems=missing, along_axis=missing)
+        yield (
+            taken(found, slice(0)),
+            SystemCounts(systems=missing, along_axis=missing),
+        )
 
 
 def _lines(search: Search, finger: int) -> Iterator[TangentLines]:

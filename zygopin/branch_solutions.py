@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
-from typing import Any
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,12 +16,12 @@ from zygopin.errors import ParameterError
 from zygopin.foot import Foot
 from zygopin.grasp import PARAMETER_SLACK, Criteria, check_grasp
 from zygopin.reach import find_finger
+from zygopin.records import joined, taken
 from zygopin.tangent_lines import (
     Integers,
     Placement,
     TangentLines,
     control_set,
-    joined,
     line_count,
     whole_controls,
 )
@@ -102,22 +101,6 @@ class BranchSolutions:
     def branches(self) -> Branch:
         """The branches, a batch of shape (N,)."""
         return self.placement.branch(self.height, self.radius)
-
-    def take(self, which: NDArray[Any] | slice) -> BranchSolutions:
-        """Some of the solutions; the counts remain those of all.
-
-        Args:
-            which: Their indices, a mask, or a slice.
-
-        Returns:
-            Those solutions, in that order.
-        """
-        arrays = {
-            each.name: getattr(self, each.name)[which]
-            for each in fields(self)
-            if isinstance(getattr(self, each.name), np.ndarray)
-        }
-        return replace(self, **arrays)
 
     def fcl_difference(self) -> Floats:
         """Check by FCL: how far it finds the tangent phalanges from the branch.
@@ -210,12 +193,6 @@ class Found:
     radii: Floats
 
     @classmethod
-    def nothing(cls) -> Found:
-        """No branches."""
-        whole, real = np.zeros((0, 2), dtype=np.int64), np.zeros((0, 2))
-        return cls(whole, whole, whole, real, real[:, 0], real[:, 0], real, real)
-
-    @classmethod
     def at(cls, one: TangentLines, other: TangentLines, where: Crossings) -> Found:
         """What the crossings of two sets of lines are.
 
@@ -227,7 +204,7 @@ class Found:
         Returns:
             The branches.
         """
-        one, other = one.take(where.one), other.take(where.other)
+        one, other = taken(one, where.one), taken(other, where.other)
         place = where.heights
         radii = one.offset[:, None] - np.where(
             one.normal_z[:, None] == 0, 0.0, one.normal_z[:, None] * place

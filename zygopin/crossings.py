@@ -8,7 +8,6 @@ inside the bone and the radius is positive.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from typing import NamedTuple
 
@@ -19,6 +18,7 @@ from zygopin.branch import BASE_SLACK
 from zygopin.clearance import Floats
 from zygopin.foot import Foot
 from zygopin.grasp import FARTHEST, THINNEST
+from zygopin.records import taken
 from zygopin.tangent_lines import Placement, TangentLines
 
 Indices = NDArray[np.intp]
@@ -90,57 +90,80 @@ class Crossings(NamedTuple):
 
 def crossings(
     foot: Foot, placement: Placement, one: TangentLines, other: TangentLines
-) -> Iterator[tuple[Crossings, SystemCounts]]:
+) -> tuple[Crossings, SystemCounts]:
     """Solve the system of each pair of lines, and keep what is a branch.
 
     Args:
         foot: The foot.
         placement: Where the branches lie.
-        one: Lines of one finger.
-        other: Lines of another.
+        one: Lines of one finger, N of them.
+        other: Lines of another, M of them.
 
-    Yields:
-        The solutions and what became of the systems, some rows of pairs at a time.
+    Returns:
+        The solutions, single branches before families, and what became of the N·M
+        systems.
     """
-    bounds = one.heights(), other.heights()
+    unit = PARALLEL_LINES * (foot.size + float(np.linalg.norm(placement.centre)))
+    low, high = other.heights()
     step = max(1, CELLS // max(1, len(other)))
-    for start in range(0, len(one), step):
-        rows = slice(start, start + step)
-        low = np.maximum(bounds[0][0][rows, None], bounds[1][0])
-        high = np.minimum(bounds[0][1][rows, None], bounds[1][1])
-        steepness = one.normal_z[rows, None] - other.normal_z
-        apart = one.offset[rows, None] - other.offset
-        flat = np.abs(steepness) <= PARALLEL_LINES
-        steepness[flat] = np.nan
-        height = apart / steepness
-        crossed = np.nonzero((height >= low) & (height <= high))
-        single, lost = _single(foot, placement, one.take(rows), crossed, height)
-        unit = foot.size + float(np.linalg.norm(placement.centre))
-        same = flat & (np.abs(apart) <= PARALLEL_LINES * unit)
-        shared = np.nonzero(same)
-        ends = np.stack([low[shared], high[shared]], axis=1)
-        family, cut = _families(foot, placement, one.take(rows), shared, ends)
-        count = int(np.count_nonzero(same))
-        counts = SystemCounts(
-            systems=flat.size,
-            parallel=int(np.count_nonzero(flat)) - count,
-            same_line=count,
-        )
-        found = Crossings(
-            *(np.concatenate(pair) for pair in zip(single, family, strict=True))
-        )
-        yield found._replace(one=found.one + start), counts + lost + cut
+    parts = [
+        _met(taken(one, slice(start, start + step)), start, (other, low, high), unit)
+        for start in range(0, max(1, len(one)), step)
+    ]
+    met, shared = (_joined([part[kind] for part in parts]) for kind in (0, 1))
+    single, lost = _single(foot, placement, one, met)
+    family, cut = _families(foot, placement, one, shared)
+    same = len(shared.one)
+    counts = SystemCounts(
+        systems=len(one) * len(other),
+        parallel=sum(part[2] for part in parts) - same,
+        same_line=same,
+    )
+    return _joined([single, family]), counts + lost + cut
+
+
+def _met(
+    one: TangentLines,
+    start: int,
+    others: tuple[TangentLines, Floats, Floats],
+    unit: float,
+) -> tuple[Crossings, Crossings, int]:
+    """Where some lines meet all others, at heights at which both touch the bone.
+
+    Args:
+        one: The lines.
+        start: Index of the first of them.
+        others: The other lines, and the heights between which each touches.
+        unit: Difference of offsets that is rounding [m].
+
+    Returns:
+        Crossings; lines that are the same; how many are parallel, those included.
+    """
+    other = others[0]
+    ends = one.heights()
+    low = np.maximum(ends[0][:, None], others[1])
+    high = np.minimum(ends[1][:, None], others[2])
+    steepness = one.normal_z[:, None] - other.normal_z
+    apart = one.offset[:, None] - other.offset
+    flat = np.abs(steepness) <= PARALLEL_LINES
+    steepness[flat] = np.nan
+    height = apart / steepness
+    met = np.flatnonzero((height >= low) & (height <= high))
+    parallel = np.flatnonzero(flat)
+    same = parallel[np.abs(apart.ravel()[parallel]) <= unit]
+    row, column = np.divmod(met, len(other))
+    at = height.ravel()[met]
+    crossed = Crossings(row + start, column, at, np.stack([at, at], axis=1))
+    row, column = np.divmod(same, len(other))
+    between = np.stack([low.ravel()[same], high.ravel()[same]], axis=1)
+    shared = Crossings(row + start, column, between[:, 0], between)
+    return crossed, shared, len(parallel)
 
 
 def _single(
-    foot: Foot,
-    placement: Placement,
-    one: TangentLines,
-    where: tuple[Indices, ...],
-    height: Floats,
+    foot: Foot, placement: Placement, one: TangentLines, found: Crossings
 ) -> tuple[Crossings, SystemCounts]:
     """Crossings that are branches of a size that means something."""
-    found = Crossings(*where, height[where], np.repeat(height[where][:, None], 2, 1))
     radius = _radius(one, found)
     found, radius = found.take(radius > 0), radius[radius > 0]
     extent = radius + np.hypot(np.linalg.norm(placement.centre), found.height)
@@ -155,14 +178,9 @@ def _single(
 
 
 def _families(
-    foot: Foot,
-    placement: Placement,
-    one: TangentLines,
-    where: tuple[Indices, ...],
-    ends: Floats,
+    foot: Foot, placement: Placement, one: TangentLines, found: Crossings
 ) -> tuple[Crossings, SystemCounts]:
     """Pieces of common lines whose branches leave the base outside."""
-    found = Crossings(*where, np.zeros(len(ends)), ends)
     found = _thick(foot, one, found)
     pieces = _without_base(placement, one, found)
     pieces = pieces._replace(height=_midway(foot, pieces.heights))
@@ -217,6 +235,11 @@ def _without_base(
     point = (low == high) & (np.arange(3) == 0)
     row, piece = np.nonzero((first < last) | point)
     return found.take(row)._replace(heights=pieces[row, piece])
+
+
+def _joined(parts: list[Crossings]) -> Crossings:
+    """Several lists of solutions as one."""
+    return Crossings(*map(np.concatenate, zip(*parts, strict=True)))
 
 
 def _midway(foot: Foot, heights: Floats) -> Floats:

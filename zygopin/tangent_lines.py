@@ -10,9 +10,8 @@ segment of that line.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, fields, replace
-from typing import Any, TypeVar
+from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,9 +23,9 @@ from zygopin.control_system import MAX_WORDS, Levels, as_levels, words
 from zygopin.errors import ParameterError
 from zygopin.foot import Foot
 from zygopin.grasp import PARAMETER_SLACK
+from zygopin.records import joined
 
 Integers = NDArray[np.int64]
-Record = TypeVar("Record")
 
 STEEPEST = 1e-3
 """Cosine of a branch's pitch below which its height says nothing of where it is."""
@@ -116,17 +115,6 @@ class TangentLines:
 
     def __len__(self) -> int:
         return len(self.rank)
-
-    def take(self, which: slice | NDArray[np.generic]) -> TangentLines:
-        """Some of the lines.
-
-        Args:
-            which: Their indices, a mask, or a slice.
-
-        Returns:
-            Those lines, in that order.
-        """
-        return TangentLines(*(getattr(self, each.name)[which] for each in fields(self)))
 
     def heights(self) -> tuple[Floats, Floats]:
         """Heights between which the branch touches inside the bone [m], shape (N,).
@@ -265,15 +253,17 @@ def tangent_lines(
     """
     rank = controls.shape[1]
     word = np.arange(len(controls), dtype=np.int64) if word is None else word
-    skin = foot.radii[foot.finger_slices[foot.fingers[finger].name]][rank - 1]
-    start, bone = _last_bone(foot, finger, controls)
+    plane = plane_axes(foot, finger)
+    start, bone = (x @ plane for x in last_bone(foot, finger, controls))
     axis = np.asarray(placement.axis)
     across = np.cross(axis, bone)
     sine = np.linalg.norm(across, axis=1) / np.linalg.norm(bone, axis=1)
     seen = sine > PARALLEL
     start, bone, across, word = start[seen], bone[seen], across[seen], word[seen]
-    normal = _palm(foot, finger, axis) * across
-    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    # Away from a branch on the palm's side: upward from one below a straight toe.
+    left = np.cross(plane[1], plane[0])
+    normal = across if axis @ left <= 0 else -across
+    normal = normal / np.linalg.norm(normal, axis=1, keepdims=True)
     flat = np.cross(across, axis)  # the bone less its part along the axis
     rate = flat / np.sum(across**2, axis=1, keepdims=True)
     base = start - placement.centre
@@ -284,46 +274,54 @@ def tangent_lines(
         word=np.tile(word, 2),
         side=both,
         normal_z=both * np.tile(normal[:, 2], 2),
-        offset=both * np.tile(distance, 2) - skin,
+        offset=both * np.tile(distance, 2) - skin(foot, finger, rank),
         t_start=np.tile(-np.sum(rate * base, axis=1), 2),
         t_rate=np.tile(rate[:, 2], 2),
     )
 
 
-def joined(parts: Sequence[Record]) -> Record:
-    """Records of arrays as one: their arrays one after another.
+def last_bone(foot: Foot, finger: int, controls: Floats) -> tuple[Floats, Floats]:
+    """Phalanx k of a finger for given controls v₁ … vₖ, in the finger's plane.
 
     Args:
-        parts: Dataclasses of one type, alike in all that is no array.
+        foot: The foot.
+        finger: Index of the finger.
+        controls: Controls in [0, 1], shape (m, k).
 
     Returns:
-        One of that type.
+        Its start and its vector, forward and upward [m], shape (m, 2) each.
     """
-    first: Any = parts[0]
-    arrays = {
-        field.name: np.concatenate([getattr(part, field.name) for part in parts])
-        for field in fields(first)
-        if isinstance(getattr(first, field.name), np.ndarray)
-    }
-    joint: Record = replace(first, **arrays)
-    return joint
-
-
-def _last_bone(foot: Foot, finger: int, controls: Floats) -> tuple[Floats, Floats]:
-    """Start and vector of phalanx k of a finger [m], shape (m, 3) each."""
     chosen = foot.fingers[finger]
     lengths = foot.lengths[foot.finger_slices[chosen.name]][: controls.shape[1]]
     pitch = chosen.orientation + foot.omega * np.cumsum(controls, axis=1)
-    steps = lengths * np.exp(-1j * pitch)
-    forward = np.array([np.cos(chosen.azimuth), np.sin(chosen.azimuth), 0.0])
-    start, bone = steps[:, :-1].sum(axis=1), steps[:, -1]
-    up = np.array([0.0, 0.0, 1.0])
-    in_space = [x.real[:, None] * forward + x.imag[:, None] * up for x in (start, bone)]
-    return in_space[0], in_space[1]
+    steps = lengths[:, None] * np.stack([np.cos(pitch), -np.sin(pitch)], axis=2)
+    return steps[:, :-1].sum(axis=1), steps[:, -1]
 
 
-def _palm(foot: Foot, finger: int, axis: Floats) -> float:
-    """Sign that turns axis × bone away from a branch on the palm's side, any pitch."""
+def plane_axes(foot: Foot, finger: int) -> Floats:
+    """Unit vectors forward and upward in a finger's plane.
+
+    Args:
+        foot: The foot.
+        finger: Index of the finger.
+
+    Returns:
+        The vectors as rows, shape (2, 3).
+    """
     azimuth = foot.fingers[finger].azimuth
-    left = np.array([-np.sin(azimuth), np.cos(azimuth), 0.0])
-    return -1.0 if axis @ left > 0 else 1.0
+    return np.array([[np.cos(azimuth), np.sin(azimuth), 0.0], [0.0, 0.0, 1.0]])
+
+
+def skin(foot: Foot, finger: int, rank: int) -> float:
+    """Skin radius εₖ of phalanx k of a finger [m].
+
+    Args:
+        foot: The foot.
+        finger: Index of the finger.
+        rank: The number k.
+
+    Returns:
+        The radius.
+    """
+    part = foot.finger_slices[foot.fingers[finger].name]
+    return float(foot.radii[part][rank - 1])
