@@ -10,8 +10,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-import numpy as np
-
 from zygopin import checks
 from zygopin.branch_solutions import (
     BranchSolutions,

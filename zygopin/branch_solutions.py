@@ -285,7 +285,7 @@ def pair_of_fingers(foot: Foot, pair: Pair) -> Foot:
         ParameterError: They are not two fingers, or not opposable.
         UnknownNameError: There is no finger of that name.
     """
-    if isinstance(pair, str) or len(pair) != 2:  # noqa: PLR2004
+    if isinstance(pair, str) or len(pair) != 2:
         raise ParameterError("pair", pair, "two fingers", "give two names or numbers")
     fingers = tuple(find_finger(foot, finger) for finger in pair)
     if fingers[0] != fingers[1]:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from zygopin.branch import BASE_SLACK
 from zygopin.clearance import Floats
 from zygopin.foot import Foot
-from zygopin.grasp import FARTHEST, THINNEST
+from zygopin.grasp import FARTHEST, THINNEST, TOLERANCE
 from zygopin.records import taken
 from zygopin.tangent_lines import Placement, TangentLines
 
@@ -29,6 +29,10 @@ they are equal: a hundred times the rounding of sums of angles and lengths."""
 
 CELLS = 2**15
 """Systems solved at once: intermediate arrays stay in the cache."""
+
+NARROW = TOLERANCE
+"""Length of a family, over the foot's size, below which it counts as one branch: two
+bones that share a junction meet on one line at its end."""
 
 FAR = FARTHEST / 4
 """Height over the foot's size beyond which a family counts as endless."""
@@ -85,7 +89,9 @@ class Crossings(NamedTuple):
 
     def take(self, which: Indices | NDArray[np.bool_]) -> Crossings:
         """Some of the solutions."""
-        return Crossings(*(values[which] for values in self))
+        return Crossings(
+            self.one[which], self.other[which], self.height[which], self.heights[which]
+        )
 
 
 def crossings(
@@ -110,7 +116,7 @@ def crossings(
         _met(taken(one, slice(start, start + step)), start, (other, low, high), unit)
         for start in range(0, max(1, len(one)), step)
     ]
-    met, shared = (_joined([part[kind] for part in parts]) for kind in (0, 1))
+    met, shared = _joined([part[0] for part in parts]), _joined([p[1] for p in parts])
     single, lost = _single(foot, placement, one, met)
     family, cut = _families(foot, placement, one, shared)
     same = len(shared.one)
@@ -183,7 +189,10 @@ def _families(
     """Pieces of common lines whose branches leave the base outside."""
     found = _thick(foot, one, found)
     pieces = _without_base(placement, one, found)
-    pieces = pieces._replace(height=_midway(foot, pieces.heights))
+    middle = _midway(foot, pieces.heights)
+    narrow = np.ptp(pieces.heights, axis=1) <= NARROW * foot.size
+    ends = np.where(narrow[:, None], middle[:, None], pieces.heights)
+    pieces = pieces._replace(height=middle, heights=ends)
     outside = _base_gap(placement, pieces.height, _radius(one, pieces)) >= 0
     inside = int(np.count_nonzero(~outside))
     return pieces.take(outside), SystemCounts(base_inside=inside)
@@ -196,13 +205,15 @@ def _thick(foot: Foot, one: TangentLines, found: Crossings) -> Crossings:
     with np.errstate(divide="ignore", invalid="ignore"):
         limit = spare / normal_z
     upright = normal_z == 0
-    low = np.where(normal_z < 0, limit, np.where(upright & (spare < 0), np.inf, -np.inf))
+    low = np.where(
+        normal_z < 0, limit, np.where(upright & (spare < 0), np.inf, -np.inf)
+    )
     high = np.where(normal_z > 0, limit, np.inf)
     low = np.maximum(found.heights[:, 0], low)
     high = np.minimum(found.heights[:, 1], high)
-    low = np.where(low < -FAR * foot.size, -np.inf, low)
-    high = np.where(high > FAR * foot.size, np.inf, high)
-    kept = (low <= high) & (low < np.inf) & (high > -np.inf)
+    far = FAR * foot.size
+    kept = (low <= high) & (low < far) & (high > -far)
+    low, high = np.where(low < -far, -np.inf, low), np.where(high > far, np.inf, high)
     return found._replace(heights=np.stack([low, high], axis=1)).take(kept)
 
 
@@ -246,7 +257,9 @@ def _midway(foot: Foot, heights: Floats) -> Floats:
     """Height in the middle of each family; near the end of an endless one."""
     low, high = heights[:, 0], heights[:, 1]
     low = np.where(np.isfinite(low), low, high - 2 * foot.size)
-    return np.asarray((low + np.where(np.isfinite(high), high, low + 2 * foot.size)) / 2)
+    return np.asarray(
+        (low + np.where(np.isfinite(high), high, low + 2 * foot.size)) / 2
+    )
 
 
 def _radius(one: TangentLines, found: Crossings) -> Floats:

@@ -135,11 +135,10 @@ def resting_radii(
         parts.append(_equations(foot, index, controls, section, placement))
     equations = joined(parts)
     solved, impossible = _solved(foot, equations)
-    rank, word = solved.rank, solved.word
     return RestingRadii(
-        controls=whole_controls(values, phalanges, rank, word),
-        phalanx=rank,
-        word=word,
+        controls=whole_controls(values, phalanges, solved.rank, solved.word),
+        phalanx=solved.rank,
+        word=solved.word,
         side=solved.side,
         radius=solved.offset,
         t=solved.t_start,
@@ -182,7 +181,8 @@ def resting_branches(
         UnknownNameError: There is no such finger or section.
     """
     search = Search.of(foot, pair, levels, Placement(axis), criteria)
-    two, sides, counts = search.foot, [], SystemCounts()
+    two, counts = search.foot, SystemCounts()
+    sides: list[RestingRadii] = []
     for finger in two.fingers:
         radii = resting_radii(two, finger.name, levels, section=section, axis=axis)
         whole = taken(radii, radii.on_bone)

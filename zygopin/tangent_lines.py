@@ -184,7 +184,7 @@ def line_count(foot: Foot, finger: int, levels: Levels) -> int:
         ParameterError: The levels are no control set, or too many to be counted.
     """
     count, phalanges = len(control_set(levels)), foot.fingers[finger].phalanges
-    lines = 2 * sum(count**rank for rank in range(1, phalanges + 1))
+    lines: int = 2 * sum(count**rank for rank in range(1, phalanges + 1))
     if lines > MAX_WORDS:
         remedy = "take fewer levels"
         name = f"number of {foot.fingers[finger].name}'s tangent lines"
