@@ -74,8 +74,8 @@ def summary_lines(
     what = "equations" if tied else "systems"
     free = "for every radius" if tied else "the same line twice"
     lines = [
-        f"{counts.systems} {what}, {counts.singular} of them singular: "
-        f"{counts.parallel} without a solution, {counts.same_line} {free}"
+        f"{counts.systems} {what}",
+        f"singular: {counts.parallel} without a solution, {counts.same_line} {free}",
     ]
     left_out = [
         f"{count} {words}"

@@ -188,7 +188,7 @@ def _families(
 ) -> tuple[Crossings, SystemCounts]:
     """Pieces of common lines whose branches leave the base outside."""
     found = _thick(foot, one, found)
-    pieces = _without_base(placement, one, found)
+    pieces = _near(foot, _without_base(placement, one, found))
     middle = _midway(foot, pieces.heights)
     narrow = np.ptp(pieces.heights, axis=1) <= NARROW * foot.size
     ends = np.where(narrow[:, None], middle[:, None], pieces.heights)
@@ -211,9 +211,7 @@ def _thick(foot: Foot, one: TangentLines, found: Crossings) -> Crossings:
     high = np.where(normal_z > 0, limit, np.inf)
     low = np.maximum(found.heights[:, 0], low)
     high = np.minimum(found.heights[:, 1], high)
-    far = FAR * foot.size
-    kept = (low <= high) & (low < far) & (high > -far)
-    low, high = np.where(low < -far, -np.inf, low), np.where(high > far, np.inf, high)
+    kept = low <= high
     return found._replace(heights=np.stack([low, high], axis=1)).take(kept)
 
 
@@ -246,6 +244,15 @@ def _without_base(
     point = (low == high) & (np.arange(3) == 0)
     row, piece = np.nonzero((first < last) | point)
     return found.take(row)._replace(heights=pieces[row, piece])
+
+
+def _near(foot: Foot, found: Crossings) -> Crossings:
+    """Families less far ones, and endless where an end is far."""
+    low, high = found.heights.T
+    far = FAR * foot.size
+    kept = (low < far) & (high > -far)
+    low, high = np.where(low < -far, -np.inf, low), np.where(high > far, np.inf, high)
+    return found._replace(heights=np.stack([low, high], axis=1)).take(kept)
 
 
 def _joined(parts: list[Crossings]) -> Crossings:

@@ -56,10 +56,8 @@ class Placement:
         for name, value in zip(("axis", "x", "y"), (unit, *place), strict=True):
             object.__setattr__(self, name, value)
         remedy = "give a branch that rises less: its height must mean something"
-        level = np.asarray(self.level)
-        checks.require(
-            "axis", unit, np.full(3, level > STEEPEST), "off the vertical", remedy
-        )
+        if self.level <= STEEPEST:
+            raise ParameterError("axis", unit, "off the vertical", remedy)
 
     @property
     def centre(self) -> Floats:
