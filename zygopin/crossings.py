@@ -171,7 +171,8 @@ def _single(
 ) -> tuple[Crossings, SystemCounts]:
     """Crossings that are branches of a size that means something."""
     radius = _radius(one, found)
-    found, radius = found.take(radius > 0), radius[radius > 0]
+    thick = radius > PARALLEL_LINES * foot.size  # lines through the base: rounding
+    found, radius = found.take(thick), radius[thick]
     extent = radius + np.hypot(np.linalg.norm(placement.centre), found.height)
     thin = radius < THINNEST * foot.size
     good = ~thin & (extent <= FARTHEST * foot.size)

@@ -272,8 +272,11 @@ def _solved(foot: Foot, equations: _Equations) -> tuple[_Equations, int]:
     """Equations with radii as offsets, and t as t_start; how many have no solution."""
     share, offset = equations.share, equations.offset
     void = np.abs(share) <= PARALLEL_LINES
-    free = void & (np.abs(offset) <= PARALLEL_LINES * foot.size)
-    radius = np.where(void, np.nan, offset) / np.where(void, 1.0, share)
+    # The line of the bone passes through the base.
+    none = np.abs(offset) <= PARALLEL_LINES * foot.size
+    free = void & none
+    radius = np.where(void, np.nan, np.where(none, 0.0, offset))
+    radius = radius / np.where(void, 1.0, share)
     t = equations.t_start + equations.t_rate * np.where(void, 0.0, radius)
     with_radius = _Equations(
         equations.rank, equations.word, equations.side, share, radius, t, t
