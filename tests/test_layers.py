@@ -54,7 +54,7 @@ LAYERS = (
     "crossings",
     "branch_solutions",
     "branch_search",
-    "resting_branches",
+    "resting",
     "contacts",
     "strength",
     "programme",

@@ -84,8 +84,9 @@ from zygopin.remark import Counterexample as Counterexample
 from zygopin.remark import contact_kept as contact_kept
 from zygopin.remark import counterexample as counterexample
 from zygopin.remark_plots import plot_remark as plot_remark
-from zygopin.resting_branches import RestingRadii as RestingRadii
-from zygopin.resting_branches import resting_radii as resting_radii
+from zygopin.resting import RestingRadii as RestingRadii
+from zygopin.resting import resting_branches as resting_branches
+from zygopin.resting import resting_radii as resting_radii
 from zygopin.scene import export_scene as export_scene
 from zygopin.solid_clearance import obstacle_clearance as obstacle_clearance
 from zygopin.spread import SpreadStudy as SpreadStudy

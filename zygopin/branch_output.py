@@ -71,10 +71,8 @@ def summary_lines(
     Returns:
         The lines.
     """
-    what = "equations" if tied else "systems"
     free = "for every radius" if tied else "the same line twice"
     lines = [
-        f"{counts.systems} {what}",
         f"singular: {counts.parallel} without a solution, {counts.same_line} {free}",
     ]
     left_out = [

@@ -133,13 +133,13 @@ def _check_memory(search: Search, max_bytes: int | None) -> None:
     """Refuse solutions that do not fit; count them where there may be too many."""
     # While they are joined they are there twice.
     each, systems = 2 * search.bytes_each, _systems(search)
+    most = checks.memory_limit(max_bytes)
+    if systems * each <= most:
+        return
+    count = sum(len(found.height) for found, _ in _found(search))
+    what = f"{count} solutions of {systems} systems"
     remedy = "stream them with iter_stable_branches, or take fewer levels"
-    try:
-        checks.memory(f"{systems} solutions", systems * each, max_bytes, remedy)
-    except ValueError:
-        count = sum(len(found.height) for found, _ in _found(search))
-        what = f"{count} solutions of {systems} systems"
-        checks.memory(what, count * each, max_bytes, remedy)
+    checks.memory(what, count * each, most, remedy)
 
 
 def _blocks(search: Search, block: int) -> Iterator[BranchSolutions]:

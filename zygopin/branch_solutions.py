@@ -29,7 +29,7 @@ from zygopin.tangent_lines import (
 Booleans = NDArray[np.bool_]
 Pair = tuple[str | int, str | int]
 
-SOLUTION_BYTES = 224
+SOLUTION_BYTES = 128
 """Memory of one solution, beside its controls."""
 
 

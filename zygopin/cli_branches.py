@@ -103,10 +103,9 @@ class _Tally:
 )
 @click.option(
     "--levels",
-    type=click.IntRange(2, 1000),
-    default=2,
+    default="2",
     show_default=True,
-    help="Equal levels of each control.",
+    help="Number of equal levels of each control, or the levels: 0,0.3,1.",
 )
 @axis_options
 @click.option("--x-mm", "x", type=MM, default=0, help="Forward place of the centre.")
@@ -170,36 +169,40 @@ Search = Callable[[], Iterable["BranchSolutions"]]
 
 
 def _search(
-    pair: str, levels: int, tied: bool, section: Any, **options: Any
+    pair: str, levels: str, tied: bool, section: Any, **options: Any
 ) -> tuple[bool, str, Search]:
     """Whether branches are tied, the title with the number of systems, the search."""
     from zygopin.branch import branch_axis
     from zygopin.branch_search import count_systems, iter_stable_branches
-    from zygopin.resting_branches import resting_branches
-    from zygopin.tangent_lines import Placement
+    from zygopin.branch_solutions import pair_of_fingers
+    from zygopin.resting import resting_branches
+    from zygopin.tangent_lines import Placement, line_count
 
     axis = branch_axis(options.pop("yaw"), options.pop("pitch"))
     x = options.pop("x")
     foot = make_foot(**options)
-    fingers = _pair(pair)
+    fingers, values = _pair(pair), _levels(levels)
+    name = f"{foot.name}, {pair}, levels {levels}"
     if tied:
         if x:
             raise click.UsageError("--tied has its branches under the base: no --x-mm.")
-        title = f"{foot.name}, {pair}, {levels} levels, branches under the base"
+        two = pair_of_fingers(foot, fingers)
+        count = sum(line_count(two, finger, values) for finger in (0, 1))
+        title = f"{name}: {count} equations, branches under the base"
         reading: Any = section or "geometric"
         return (
             tied,
             title,
             lambda: [
-                resting_branches(foot, fingers, levels, section=reading, axis=axis)
+                resting_branches(foot, fingers, values, section=reading, axis=axis)
             ],
         )
     if section is not None:
         raise click.UsageError("--section goes with --tied.")
-    count = count_systems(foot, fingers, levels)
-    title = f"{foot.name}, {pair}, {levels} levels: {count} systems"
+    count = count_systems(foot, fingers, values)
+    title = f"{name}: {count} systems"
     placement = Placement(axis, x)
-    search = partial(iter_stable_branches, foot, fingers, levels, placement=placement)
+    search = partial(iter_stable_branches, foot, fingers, values, placement=placement)
     return tied, title, search
 
 
@@ -209,6 +212,17 @@ def _pair(text: str) -> tuple[str | int, str | int]:
     if len(names) != 2:
         raise click.UsageError(f"--pair = {text} is not two fingers: try 1,3.")
     return names[0], names[1]
+
+
+def _levels(text: str) -> int | tuple[float, ...]:
+    """The number of levels, or the levels."""
+    try:
+        if "," in text:
+            return tuple(float(level) for level in text.split(","))
+        return int(text)
+    except ValueError as error:
+        message = f"--levels = {text} is neither a number nor levels: try 0,0.5,1."
+        raise click.UsageError(message) from error
 
 
 def _consume(tally: _Tally, search: Search, file: Path | None) -> None:

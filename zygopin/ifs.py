@@ -297,7 +297,8 @@ def _word_count(system: ControlSystem, depth: int) -> int:
 def _check_memory(count: int, max_bytes: int | None) -> None:
     """Refuse a set whose points do not fit."""
     remedy = "stream them with iter_reachable, or take fewer levels or phalanges"
-    checks.memory(f"{count} points", count * _POINT_BYTES, max_bytes, remedy)
+    most = checks.memory_limit(max_bytes)
+    checks.memory(f"{count} points", count * _POINT_BYTES, most, remedy)
 
 
 def _controls(control: ArrayLike) -> NDArray[np.float64]:

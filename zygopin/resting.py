@@ -51,6 +51,9 @@ SAME_RADIUS = 1e-9
 ROOT_BYTES = 128
 """Memory of one equation and its root, and of its controls at most."""
 
+BLOCK = 4096
+"""Solutions judged at once: some megabytes."""
+
 Y_AXIS = (0.0, 1.0, 0.0)
 
 
@@ -126,7 +129,8 @@ def resting_radii(
     index = foot.fingers.index(find_finger(foot, finger))
     values, count = control_set(levels), line_count(foot, index, levels)
     remedy = "take fewer levels"
-    checks.memory(f"{count} equations", count * ROOT_BYTES, None, remedy)
+    most = checks.memory_limit()
+    checks.memory(f"{count} equations", count * ROOT_BYTES, most, remedy)
     parts = []
     phalanges = foot.fingers[index].phalanges
     for rank in range(1, phalanges + 1):
@@ -191,7 +195,11 @@ def resting_branches(
         sides.append(taken(whole, near))
     one, other = _matched(search, sides[0].radius, sides[1].radius)
     found = _found(search, taken(sides[0], one), taken(sides[1], other))
-    return with_verdicts(search, [found], counts)
+    blocks = [
+        with_verdicts(search, [taken(found, slice(start, start + BLOCK))], counts)
+        for start in range(0, max(1, len(one)), BLOCK)
+    ]
+    return joined(blocks)
 
 
 @dataclass(frozen=True)
@@ -316,7 +324,7 @@ def _matched(
     open_ended = order[len(sized) :]
     count = int((last - first).sum()) + len(one) * len(open_ended)
     each, remedy = 2 * search.bytes_each, "take fewer levels"
-    checks.memory(f"{count} solutions", count * each, None, remedy)
+    checks.memory(f"{count} solutions", count * each, checks.memory_limit(), remedy)
     number = last - first
     row = np.repeat(np.arange(len(one)), number)
     place = np.arange(len(row)) - np.repeat(np.cumsum(number) - number, number)

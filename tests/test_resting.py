@@ -18,7 +18,7 @@ from zygopin import (
     resting_radii,
 )
 from zygopin.clearance import branch_clearance
-from zygopin.resting_branches import SECTIONS, resting_branches
+from zygopin.resting import SECTIONS, resting_branches
 from zygopin.tangent_lines import Placement
 
 PAPER, PARROT = Foot.preset("paper"), Foot.preset("parrot")
