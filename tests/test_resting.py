@@ -18,8 +18,9 @@ from zygopin import (
     resting_radii,
 )
 from zygopin.clearance import branch_clearance
-from zygopin.resting import SECTIONS, resting_branches
-from zygopin.tangent_lines import Placement
+from zygopin.placement import Placement
+from zygopin.resting import resting_branches
+from zygopin.resting_equations import SECTIONS
 
 PAPER, PARROT = Foot.preset("paper"), Foot.preset("parrot")
 WIDTH = {"geometric": lambda c: 1 / c, "printed": lambda c: c, "circle": lambda _: 1}

@@ -12,8 +12,8 @@ from strategies import feet, reals
 
 from zygopin import Finger, Foot, ParameterError, branch_axis, forward_kinematics
 from zygopin.clearance import branch_clearance
+from zygopin.placement import Placement
 from zygopin.tangent_lines import (
-    Placement,
     control_set,
     line_blocks,
     line_count,

@@ -72,6 +72,7 @@ from zygopin.paths import URDF_PATH as URDF_PATH
 from zygopin.paths import XACRO_PATH as XACRO_PATH
 from zygopin.perch import PerchPlan as PerchPlan
 from zygopin.perch import plan_perch as plan_perch
+from zygopin.placement import Placement as Placement
 from zygopin.poses import named_poses as named_poses
 from zygopin.presets import preset_names as preset_names
 from zygopin.reach import FingerReach as FingerReach
@@ -100,7 +101,6 @@ from zygopin.strike import simulate_strike as simulate_strike
 from zygopin.strike_output import save_strike as save_strike
 from zygopin.strike_plots import plot_strike as plot_strike
 from zygopin.strike_scene import export_strike as export_strike
-from zygopin.tangent_lines import Placement as Placement
 from zygopin.tendon import Contact as Contact
 from zygopin.tendon import TendonFoot as TendonFoot
 from zygopin.toe_torque import joint_drive as joint_drive

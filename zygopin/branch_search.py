@@ -22,9 +22,9 @@ from zygopin.control_system import Levels
 from zygopin.crossings import SystemCounts, crossings
 from zygopin.foot import Foot
 from zygopin.grasp import Criteria
+from zygopin.placement import Placement
 from zygopin.records import joined, taken
 from zygopin.tangent_lines import (
-    Placement,
     TangentLines,
     line_blocks,
     line_count,

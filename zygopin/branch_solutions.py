@@ -15,11 +15,11 @@ from zygopin.crossings import Crossings, SystemCounts
 from zygopin.errors import ParameterError
 from zygopin.foot import Foot
 from zygopin.grasp import PARAMETER_SLACK, Criteria, check_grasp
+from zygopin.placement import Placement
 from zygopin.reach import find_finger
 from zygopin.records import joined, taken
 from zygopin.tangent_lines import (
     Integers,
-    Placement,
     TangentLines,
     control_set,
     line_count,

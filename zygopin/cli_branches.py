@@ -175,8 +175,9 @@ def _search(
     from zygopin.branch import branch_axis
     from zygopin.branch_search import count_systems, iter_stable_branches
     from zygopin.branch_solutions import pair_of_fingers
+    from zygopin.placement import Placement
     from zygopin.resting import resting_branches
-    from zygopin.tangent_lines import Placement, line_count
+    from zygopin.tangent_lines import line_count
 
     axis = branch_axis(options.pop("yaw"), options.pop("pitch"))
     x = options.pop("x")

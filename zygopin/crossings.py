@@ -18,8 +18,9 @@ from zygopin.branch import BASE_SLACK
 from zygopin.clearance import Floats
 from zygopin.foot import Foot
 from zygopin.grasp import FARTHEST, THINNEST, TOLERANCE
+from zygopin.placement import Placement
 from zygopin.records import taken
-from zygopin.tangent_lines import Placement, TangentLines
+from zygopin.tangent_lines import TangentLines
 
 Indices = NDArray[np.intp]
 

@@ -8,7 +8,6 @@ share·r = offset, in place of a line in the plane of heights and radii.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,26 +23,23 @@ from zygopin.branch_solutions import (
 from zygopin.clearance import Floats
 from zygopin.control_system import Levels, words
 from zygopin.crossings import FAR, PARALLEL_LINES, SystemCounts
-from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.foot import Foot
 from zygopin.grasp import PARAMETER_SLACK, THINNEST, Criteria
+from zygopin.placement import Placement
 from zygopin.reach import find_finger
 from zygopin.records import joined, taken
+from zygopin.resting_equations import (
+    RestingEquations,
+    Section,
+    check_section,
+    resting_equations,
+)
 from zygopin.tangent_lines import (
     Integers,
-    Placement,
     control_set,
-    last_bone,
     line_count,
-    plane_axes,
-    skin,
-    tangent_lines,
     whole_controls,
 )
-
-Section = Literal["geometric", "printed", "circle"]
-
-SECTIONS: tuple[Section, ...] = ("geometric", "printed", "circle")
 
 SAME_RADIUS = 1e-9
 """Difference of two radii over the foot's size that is rounding."""
@@ -125,7 +121,7 @@ def resting_radii(
         UnknownNameError: There is no such finger or section.
     """
     placement = Placement(axis)
-    _check_section(section, placement)
+    check_section(section, placement)
     index = foot.fingers.index(find_finger(foot, finger))
     values, count = control_set(levels), line_count(foot, index, levels)
     remedy = "take fewer levels"
@@ -136,7 +132,7 @@ def resting_radii(
     for rank in range(1, phalanges + 1):
         word = np.arange(len(values) ** rank, dtype=np.int64)
         controls = words(values, rank, word)
-        parts.append(_equations(foot, index, controls, section, placement))
+        parts.append(resting_equations(foot, index, controls, section, placement))
     equations = joined(parts)
     solved, impossible = _solved(foot, equations)
     return RestingRadii(
@@ -202,81 +198,7 @@ def resting_branches(
     return joined(blocks)
 
 
-@dataclass(frozen=True)
-class _Equations:
-    """share·r = offset for each side of each phalanx; t = t_start + t_rate·r."""
-
-    rank: Integers
-    word: Integers
-    side: Integers
-    share: Floats
-    offset: Floats
-    t_start: Floats
-    t_rate: Floats
-
-
-def _check_section(section: Section, placement: Placement) -> None:
-    """The source's sections are those of a branch along y."""
-    if section not in SECTIONS:
-        raise UnknownNameError("section", section, SECTIONS)
-    axis = np.asarray(placement.axis)
-    if section != "geometric" and abs(axis[1]) != 1:
-        remedy = "take the section 'geometric', which holds for every axis"
-        name = f"axis of a branch with the section {section!r}"
-        raise ParameterError(name, axis, "(0, 1, 0)", remedy)
-
-
-def _equations(
-    foot: Foot, finger: int, controls: Floats, section: Section, placement: Placement
-) -> _Equations:
-    """The equations of phalanx k for controls v₁ … vₖ."""
-    if section == "geometric":
-        lines, level = tangent_lines(foot, finger, controls, placement), placement.level
-        return _Equations(
-            lines.rank,
-            lines.word,
-            lines.side,
-            1 - lines.normal_z / level,
-            lines.offset,
-            lines.t_start,
-            -lines.t_rate / level,
-        )
-    wide = 1.0 if section == "circle" else abs(plane_axes(foot, finger)[0, 0])
-    return _planar(foot, finger, controls, wide)
-
-
-def _planar(foot: Foot, finger: int, controls: Floats, wide: float) -> _Equations:
-    """The equations for an ellipse in the finger's plane, half-axes wide·r and r.
-
-    With unit normal N, the ellipse around (0, −r) reaches out to r·(h − N_z) along N,
-    h² = (wide·N_x)² + N_z², and is touched there at r·((wide²·N_x, N_z)/h − (0, 1)).
-    """
-    rank = controls.shape[1]
-    start, bone = last_bone(foot, finger, controls)
-    square = np.sum(bone**2, axis=1)
-    normal = np.stack([-bone[:, 1], bone[:, 0]], axis=1) / np.sqrt(square)[:, None]
-    reach = np.hypot(wide * normal[:, 0], normal[:, 1])
-    spot = normal * (wide**2, 1.0) / reach[:, None]
-    along, across = np.sum(spot * bone, axis=1), np.sum(normal * start, axis=1)
-    side = np.repeat(np.array([1, -1], dtype=np.int64), len(controls))
-    twice = {
-        name: np.tile(x, 2)
-        for name, x in (
-            ("word", np.arange(len(controls), dtype=np.int64)),
-            ("t_start", -np.sum(start * bone, axis=1) / square),
-        )
-    }
-    return _Equations(
-        rank=np.full(len(side), rank, dtype=np.int64),
-        side=side,
-        share=np.tile(reach, 2) - side * np.tile(normal[:, 1], 2),
-        offset=side * np.tile(across, 2) - skin(foot, finger, rank),
-        t_rate=(side * np.tile(along, 2) - np.tile(bone[:, 1], 2)) / np.tile(square, 2),
-        **twice,
-    )
-
-
-def _solved(foot: Foot, equations: _Equations) -> tuple[_Equations, int]:
+def _solved(foot: Foot, equations: RestingEquations) -> tuple[RestingEquations, int]:
     """Equations with radii as offsets, and t as t_start; how many have no solution."""
     share, offset = equations.share, equations.offset
     void = np.abs(share) <= PARALLEL_LINES
@@ -286,7 +208,7 @@ def _solved(foot: Foot, equations: _Equations) -> tuple[_Equations, int]:
     radius = np.where(void, np.nan, np.where(none, 0.0, offset))
     radius = radius / np.where(void, 1.0, share)
     t = equations.t_start + equations.t_rate * np.where(void, 0.0, radius)
-    with_radius = _Equations(
+    with_radius = RestingEquations(
         equations.rank, equations.word, equations.side, share, radius, t, t
     )
     return taken(with_radius, free | (radius > 0)), int(np.count_nonzero(void & ~free))
