@@ -8,6 +8,9 @@ from itertools import product
 
 import numpy as np
 import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from strategies import feet, reals
 
 from zygopin import (
     Criteria,
@@ -230,6 +233,21 @@ def test_solutions_are_stable_by_the_exact_engine(name, pair, tilted):
     assert np.take_along_axis(report.tangent, places, axis=1).all()
     t = np.take_along_axis(report.t, places, axis=1)
     np.testing.assert_allclose(t, found.t, atol=1e-9)
+
+
+@given(feet(), st.data())
+def test_solutions_of_any_foot_are_stable(foot, data):
+    pairs = foot.opposable_pairs
+    assume(pairs)
+    pair = tuple(index + 1 for index in data.draw(st.sampled_from(pairs)))
+    axis = branch_axis(data.draw(reals(-3, 3)), data.draw(reals(-1.2, 1.2)))
+    x, y = (data.draw(st.just(0.0) | reals(-1, 1)) * foot.size for _ in "xy")
+    found = stable_branches(foot, pair, 2, placement=Placement(axis, x, y))
+    # t is of no use where a bone is nearly parallel to the axis, or the branch far.
+    near = np.abs(found.height) < 1e3 * foot.size
+    assert found.stable[near].all()
+    assert found.residual[near].max(initial=0) <= 1e-9 * foot.size
+    assert found.counts.systems == count_systems(foot, pair)
 
 
 def test_a_straight_toe_never_enters_the_branch_beyond_its_tangent_phalanx():

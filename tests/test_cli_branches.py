@@ -51,6 +51,8 @@ def test_the_document_holds_what_the_function_finds(run):
     assert got["pair"] == ["finger1", "finger3"]
     assert got["placement"]["axis"] == [0, 1, 0]
     assert got["counts"]["systems"] == 5760
+    assert got["levels"] == [0, 0.5, 1]
+    assert got["section"] is None
     assert got["listed"] == got["matching"] == got["solutions"] == len(found)
     assert got["fcl"] is None
     for row, branch in enumerate(got["branches"]):
@@ -133,6 +135,9 @@ def test_tied_branches_in_the_sources_readings(run, section, radius):
     assert [b["radius"] for b in second] == pytest.approx([radius], abs=5e-5)
     assert not second[0]["stable"]
     assert got["stable"] < got["matching"]
+    assert got["section"] == section
+    title = run(*arguments).stdout.splitlines()[0]
+    assert title.endswith("levels 2: 72 equations, branches under the base")
 
 
 def test_tied_branches_are_those_under_the_base(run):

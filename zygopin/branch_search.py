@@ -27,7 +27,6 @@ from zygopin.records import joined, taken
 from zygopin.tangent_lines import (
     TangentLines,
     line_blocks,
-    line_count,
 )
 
 BLOCK = 4096
@@ -125,8 +124,7 @@ def count_systems(foot: Foot, pair: Pair, levels: Levels = DEFAULT_LEVELS) -> in
 
 def _systems(search: Search) -> int:
     """Number of 2×2 systems of a search."""
-    one, other = (line_count(search.foot, i, search.levels) for i in (0, 1))
-    return one * other
+    return search.lines[0] * search.lines[1]
 
 
 def _check_memory(search: Search, max_bytes: int | None) -> None:

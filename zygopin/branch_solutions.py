@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -120,14 +120,16 @@ class Search:
     Attributes:
         foot: The foot with the two fingers alone.
         levels: The control set, shape (n,).
+        lines: Number of tangent lines of each finger.
         placement: Where the branches lie.
         criteria: What counts as contact.
     """
 
     foot: Foot
     levels: Floats
-    placement: Placement = field(default_factory=Placement)
-    criteria: Criteria = field(default_factory=Criteria)
+    lines: tuple[int, int]
+    placement: Placement
+    criteria: Criteria
 
     @classmethod
     def of(
@@ -157,10 +159,9 @@ class Search:
         placement, criteria = placement or Placement(), criteria or Criteria()
         checks.instance("placement", placement, Placement)
         two = pair_of_fingers(foot, pair)
-        search = cls(two, control_set(levels), placement, criteria)
-        for finger in (0, 1):
-            line_count(two, finger, levels)
-        return search
+        values = control_set(levels)
+        counts = line_count(two, 0, values), line_count(two, 1, values)
+        return cls(two, values, counts, placement, criteria)
 
     @property
     def bytes_each(self) -> int:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 import click
 
@@ -143,8 +143,9 @@ def branches(
 
     For controls in a finite set: each phalanx that a control sequence can place is held
     against each one of the other finger, one 2×2 system each. A starred phalanx touches
-    with its back. A row with "to" is a family of branches; its verdicts are those of
-    one midway. They are said of controls that stay 0 after the tangent phalanx.
+    with its back. A row with "…" is a family of branches; its verdicts are those of one
+    midway. They are said of controls that stay 0 after the tangent phalanx, and of the
+    true cylinder, whatever the section.
 
     Exit status 0: branches are listed; 1: there are none, or FCL disagrees; 2: bad
     input.
@@ -152,59 +153,63 @@ def branches(
     wanted = tuple(name for name in ("feasible", "grasping") if options.pop(name))
     most = MOST_LISTED if as_json else LISTED
     tally = _Tally(wanted, limit or most, options.pop("verify"))
-    tied, title, search = _search(**options)
+    task = _task(**options)
     if not as_json:
-        click.echo(title)
+        click.echo(task.title)
     with waiting("solving", quiet=as_json):
-        _consume(tally, search, file)
+        _consume(tally, task, file)
     if as_json:
         _check_listed(tally, limit)
-    _show(tally, tied=tied, as_json=as_json)
+    _show(tally, task, as_json=as_json)
     if file is not None and not as_json:
         click.echo(f"table: {file}")
     context.exit(0 if tally.matching and not tally.disagreeing else 1)
 
 
-Search = Callable[[], Iterable["BranchSolutions"]]
+class _Task(NamedTuple):
+    """What is searched for.
+
+    Attributes:
+        title: What it is, with the number of systems.
+        levels: The control set.
+        section: Of branches under the base, the reading of their section; else None.
+        run: Starts the search; yields blocks of solutions.
+    """
+
+    title: str
+    levels: list[float]
+    section: str | None
+    run: Callable[[], Iterable[BranchSolutions]]
 
 
-def _search(
-    pair: str, levels: str, tied: bool, section: Any, **options: Any
-) -> tuple[bool, str, Search]:
-    """Whether branches are tied, the title with the number of systems, the search."""
+def _task(pair: str, levels: str, tied: bool, section: Any, **options: Any) -> _Task:
+    """What the options ask for; nothing is solved yet."""
     from zygopin.branch import branch_axis
-    from zygopin.branch_search import count_systems, iter_stable_branches
-    from zygopin.branch_solutions import pair_of_fingers
-    from zygopin.placement import Placement
-    from zygopin.resting import resting_branches
-    from zygopin.tangent_lines import line_count
+    from zygopin.tangent_lines import control_set
 
     axis = branch_axis(options.pop("yaw"), options.pop("pitch"))
-    x = options.pop("x")
-    foot = make_foot(**options)
+    x, foot = options.pop("x"), make_foot(**options)
     fingers, values = _pair(pair), _levels(levels)
-    name = f"{foot.name}, {pair}, levels {levels}"
-    if tied:
-        if x:
-            raise click.UsageError("--tied has its branches under the base: no --x-mm.")
-        two = pair_of_fingers(foot, fingers)
-        count = sum(line_count(two, finger, values) for finger in (0, 1))
-        title = f"{name}: {count} equations, branches under the base"
-        reading: Any = section or "geometric"
-        return (
-            tied,
-            title,
-            lambda: [
-                resting_branches(foot, fingers, values, section=reading, axis=axis)
-            ],
-        )
-    if section is not None:
-        raise click.UsageError("--section goes with --tied.")
-    count = count_systems(foot, fingers, values)
-    title = f"{name}: {count} systems"
-    placement = Placement(axis, x)
-    search = partial(iter_stable_branches, foot, fingers, values, placement=placement)
-    return tied, title, search
+    name, known = f"{foot.name}, {pair}, levels {levels}", control_set(values).tolist()
+    if not tied:
+        if section is not None:
+            raise click.UsageError("--section goes with --tied.")
+        from zygopin.branch_search import count_systems, iter_stable_branches
+        from zygopin.placement import Placement
+
+        title = f"{name}: {count_systems(foot, fingers, values)} systems"
+        there = Placement(axis, x)
+        run = partial(iter_stable_branches, foot, fingers, values, placement=there)
+        return _Task(title, known, None, run)
+    if x:
+        raise click.UsageError("--tied has its branches under the base: no --x-mm.")
+    from zygopin.branch_solutions import Search
+    from zygopin.resting import resting_branches
+
+    reading: Any = section or "geometric"
+    title = f"{name}: {sum(Search.of(foot, fingers, values).lines)} equations"
+    rest = partial(resting_branches, foot, fingers, values, section=reading, axis=axis)
+    return _Task(f"{title}, branches under the base", known, reading, lambda: [rest()])
 
 
 def _pair(text: str) -> tuple[str | int, str | int]:
@@ -226,14 +231,14 @@ def _levels(text: str) -> int | tuple[float, ...]:
         raise click.UsageError(message) from error
 
 
-def _consume(tally: _Tally, search: Search, file: Path | None) -> None:
+def _consume(tally: _Tally, task: _Task, file: Path | None) -> None:
     """Work through all solutions, and write them."""
     from zygopin.branch_output import csv_header, csv_lines
     from zygopin.files import write_stream
 
     def write(stream: BinaryIO) -> None:
         begun = False
-        for block in tally.matched(search()):
+        for block in tally.matched(task.run()):
             text = csv_lines(block) if begun else csv_header(block) + csv_lines(block)
             stream.write(text.encode("ascii"))
             begun = True
@@ -241,7 +246,7 @@ def _consume(tally: _Tally, search: Search, file: Path | None) -> None:
     if file is not None:
         write_stream(file, write)
         return
-    for _ in tally.matched(search()):
+    for _ in tally.matched(task.run()):
         pass
 
 
@@ -253,7 +258,7 @@ def _check_listed(tally: _Tally, limit: int | None) -> None:
         raise ParameterError(name, tally.matching, allowed, remedy)
 
 
-def _show(tally: _Tally, *, tied: bool, as_json: bool) -> None:
+def _show(tally: _Tally, task: _Task, *, as_json: bool) -> None:
     """Print what was found."""
     from zygopin import branch_output
     from zygopin.crossings import SystemCounts
@@ -261,12 +266,14 @@ def _show(tally: _Tally, *, tied: bool, as_json: bool) -> None:
 
     found, counts = joined(tally.kept), tally.counts or SystemCounts()
     if as_json:
-        document = branch_output.solutions_document(found, counts, tally.numbers())
+        numbers = {"levels": task.levels, "section": task.section, **tally.numbers()}
+        document = branch_output.solutions_document(found, counts, numbers)
         click.echo(json.dumps(document, indent=2, allow_nan=False))
         return
     if len(found):
         rows = branch_output.solution_rows(found)
         print_table(branch_output.HEADINGS, rows, "rrrrrr")
+    tied = task.section is not None
     for line in branch_output.summary_lines(counts, tally.numbers(), tied=tied):
         click.echo(line)
     if len(found) < tally.matching:

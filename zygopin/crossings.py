@@ -204,7 +204,7 @@ def _thick(foot: Foot, one: TangentLines, found: Crossings) -> Crossings:
     """Families cut where the radius, linear in the height, gets too small."""
     normal_z, spare = one.normal_z[found.one], one.offset[found.one]
     spare = spare - THINNEST * foot.size
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         limit = spare / normal_z
     upright = normal_z == 0
     low = np.where(
@@ -233,7 +233,7 @@ def _without_base(
     square = rise @ rise - normal_z**2
     linear = 2 * (place @ rise + normal_z * offset)
     constant = place @ place - offset**2
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         root = np.sqrt(linear**2 - 4 * square * constant)
         stem = -(linear + np.copysign(root, linear)) / 2
         roots = np.stack([stem / square, constant / stem], axis=1)

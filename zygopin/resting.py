@@ -187,7 +187,7 @@ def resting_branches(
         radii = resting_radii(two, finger.name, levels, section=section, axis=axis)
         whole = taken(radii, radii.on_bone)
         near = _in_range(two, whole.radius)
-        counts += _counts(line_count(two, len(sides), levels), radii, near)
+        counts += _counts(search.lines[len(sides)], radii, near)
         sides.append(taken(whole, near))
     one, other = _matched(search, sides[0].radius, sides[1].radius)
     found = _found(search, taken(sides[0], one), taken(sides[1], other))

@@ -63,7 +63,7 @@ class TangentLines:
 
         Infinite for a bone that is level, and then reversed where it never does.
         """
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
             first = (-PARAMETER_SLACK - self.t_start) / self.t_rate
             last = (1 + PARAMETER_SLACK - self.t_start) / self.t_rate
         low, high = np.minimum(first, last), np.maximum(first, last)
