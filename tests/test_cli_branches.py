@@ -177,6 +177,16 @@ def test_bad_input_is_one_line_and_status_2(run, arguments, message):
     assert len(result.stderr.splitlines()) == 1
 
 
+def test_what_cannot_be_solved_is_not_blamed_on_the_file(run, tmp_path, monkeypatch):
+    monkeypatch.setattr("zygopin.checks.memory_limit", lambda most=None: most or 5000)
+    file = tmp_path / "branches.csv"
+    result = run(*PAPER, "--tied", "--levels", "3", "--csv", str(file))
+    assert result.returncode == 2
+    assert "take fewer levels" in result.stderr
+    assert str(file) not in result.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_an_unwritable_file_is_status_2(run, tmp_path):
     result = run(*PAPER, "--csv", str(tmp_path))
     assert result.returncode == 2
