@@ -3,6 +3,10 @@
 from zygopin.attack import Attack as Attack
 from zygopin.branch import Branch as Branch
 from zygopin.branch import branch_axis as branch_axis
+from zygopin.branch_search import count_systems as count_systems
+from zygopin.branch_search import iter_stable_branches as iter_stable_branches
+from zygopin.branch_search import stable_branches as stable_branches
+from zygopin.branch_solutions import BranchSolutions as BranchSolutions
 from zygopin.bundle import write_description as write_description
 from zygopin.closing import Closing as Closing
 from zygopin.closure import ClosureQuality as ClosureQuality
@@ -13,6 +17,7 @@ from zygopin.contacts import Contacts as Contacts
 from zygopin.contacts import Friction as Friction
 from zygopin.contacts import branch_contacts as branch_contacts
 from zygopin.control_system import ControlSystem as ControlSystem
+from zygopin.crossings import SystemCounts as SystemCounts
 from zygopin.description import to_urdf as to_urdf
 from zygopin.engagement_plots import plot_engagement as plot_engagement
 from zygopin.engine import Engine as Engine
@@ -67,6 +72,7 @@ from zygopin.paths import URDF_PATH as URDF_PATH
 from zygopin.paths import XACRO_PATH as XACRO_PATH
 from zygopin.perch import PerchPlan as PerchPlan
 from zygopin.perch import plan_perch as plan_perch
+from zygopin.placement import Placement as Placement
 from zygopin.poses import named_poses as named_poses
 from zygopin.presets import preset_names as preset_names
 from zygopin.reach import FingerReach as FingerReach
@@ -79,6 +85,9 @@ from zygopin.remark import Counterexample as Counterexample
 from zygopin.remark import contact_kept as contact_kept
 from zygopin.remark import counterexample as counterexample
 from zygopin.remark_plots import plot_remark as plot_remark
+from zygopin.resting import RestingRadii as RestingRadii
+from zygopin.resting import resting_branches as resting_branches
+from zygopin.resting import resting_radii as resting_radii
 from zygopin.scene import export_scene as export_scene
 from zygopin.solid_clearance import obstacle_clearance as obstacle_clearance
 from zygopin.spread import SpreadStudy as SpreadStudy

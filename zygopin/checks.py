@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import re
 from collections.abc import Callable
 from dataclasses import fields
@@ -245,6 +246,37 @@ def common_batch(what: str, *shapes: tuple[int, ...]) -> tuple[int, ...]:
         raise ParameterError(
             f"batch shapes of {what}", shapes, allowed, remedy
         ) from error
+
+
+def memory_limit(most: int | None = None) -> int:
+    """Memory that an answer may take.
+
+    Args:
+        most: What the caller allows [bytes]; None: half of the machine's.
+
+    Returns:
+        The number of bytes.
+    """
+    if most is not None:
+        return most
+    return int(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2)
+
+
+def memory(what: str, needed: int, most: int, remedy: str) -> None:
+    """Raise unless something fits in memory.
+
+    Args:
+        what: What it is, for the message.
+        needed: Bytes that it takes.
+        most: Bytes that it may take.
+        remedy: What to do otherwise, in words.
+
+    Raises:
+        ParameterError: It takes more.
+    """
+    if needed > most:
+        name = f"memory for {what} [bytes]"
+        raise ParameterError(name, needed, f"at most {most}", remedy)
 
 
 def identifier(name: str, value: object) -> str:

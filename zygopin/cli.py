@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from zygopin.cli_branches import branches
 from zygopin.cli_reach import reach, validate
 from zygopin.cli_strike import strike
 from zygopin.command_group import OneLineErrors
@@ -51,6 +52,7 @@ def main() -> None:
 main.add_command(reach)
 main.add_command(validate)
 main.add_command(strike)
+main.add_command(branches)
 
 
 @main.command()

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import BinaryIO
 
-from zygopin.errors import FileError
+from zygopin.errors import FileError, ZygopinError
 
 
 def read_text(path: Path | str) -> str:
@@ -87,6 +87,8 @@ def write_stream(path: Path | str, write: Callable[[BinaryIO], object]) -> Path:
         target = _target(path)
         target.parent.mkdir(parents=True, exist_ok=True)
         _replace(target, write)
+    except ZygopinError:
+        raise  # what the content could not be made for
     except (OSError, ValueError) as error:
         problem = getattr(error, "strerror", None) or str(error)
         remedy = "name a file in a folder that can be written"

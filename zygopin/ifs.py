@@ -6,7 +6,6 @@ phalanx has length 1/ρ (MODEL.md, section 3).
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -297,13 +296,9 @@ def _word_count(system: ControlSystem, depth: int) -> int:
 
 def _check_memory(count: int, max_bytes: int | None) -> None:
     """Refuse a set whose points do not fit."""
-    if max_bytes is None:
-        max_bytes = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2
-    needed = count * _POINT_BYTES
-    if needed > max_bytes:
-        name = f"memory for {count} points [bytes]"
-        remedy = "stream them with iter_reachable, or take fewer levels or phalanges"
-        raise ParameterError(name, needed, f"at most {max_bytes}", remedy)
+    remedy = "stream them with iter_reachable, or take fewer levels or phalanges"
+    most = checks.memory_limit(max_bytes)
+    checks.memory(f"{count} points", count * _POINT_BYTES, most, remedy)
 
 
 def _controls(control: ArrayLike) -> NDArray[np.float64]:
