@@ -1,0 +1,230 @@
+"""Bounds over boxes of controls on how near a finger's bones come to axes.
+
+First order, with a bound on the curvature, where boxes are small: a bone is no nearer
+than its ends are along the direction of its nearest point at the box's middle, and no
+farther than that point goes. Where boxes are large, discs hold the junctions.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from zygopin.axis_chain import (
+    AxisChain,
+    Contact,
+    Floats,
+    Indices,
+    Points,
+    junctions,
+    nearest_on,
+    project,
+)
+from zygopin.expansion import Expansion, most_under
+
+PASSES = 2
+"""How often each multiplier is improved where several bones bound together."""
+
+
+@dataclass(frozen=True, eq=False)
+class BoxBounds:
+    """What a search needs to know of m boxes.
+
+    Attributes:
+        bound: Bound on D over each box, shape (m,).
+        value: D at each middle, shape (m,).
+        effect: What halving the box across each control may gain, shape (K, m).
+    """
+
+    bound: Floats
+    value: Floats
+    effect: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class _Views:
+    """Boxes of controls, seen along the directions of the nearest points at middles.
+
+    Attributes:
+        chain: The chains.
+        which: Index of the axis of each box, shape (m,).
+        half: Half widths, shape (K, m).
+        steps: Steps of the phalanges at the middles, shape (K, m).
+        contact: Where the bones are nearest there.
+        spread: Most that the angles θ differ from the middle's [rad], shape (K, m).
+    """
+
+    chain: AxisChain
+    which: Indices
+    half: Floats
+    steps: Points
+    contact: Contact
+    spread: Floats
+
+    @classmethod
+    def of(
+        cls, chain: AxisChain, middle: Floats, half: Floats, which: Indices
+    ) -> _Views:
+        steps, _ = chain.steps(middle, which)
+        contact = chain.contact(middle, which)
+        spread = chain.omega * np.cumsum(half, axis=0)
+        return cls(chain, which, half, steps, contact, spread)
+
+    def bend(self, normal: Points, side: float) -> Floats:
+        """Most that curvature moves each step along each bone's direction.
+
+        Along a direction a step is a wave A·cos(θ + φ), whose second derivative is
+        its negative.
+
+        Args:
+            normal: A direction for each bone, shape (K, m).
+            side: −1: down, 1: up.
+
+        Returns:
+            Bounds of phalanx m's part in bone k's, shape (K, K, m).
+        """
+        seen = project(normal[:, None], self.steps[None])
+        height = np.hypot(
+            project(normal, self.chain.ahead[self.which]),
+            project(normal, self.chain.up[self.which]),
+        )
+        height = height[:, None] * self.chain.lengths[:, None]
+        bent = np.clip(height * self.spread - side * seen, 0.0, height)
+        return np.asarray(bent * (self.spread**2 / 2))
+
+    def moved(self, slopes: Floats) -> Floats:
+        """Most that slopes along the controls change a value by, (…, K, m)."""
+        return np.asarray(np.sum(np.abs(slopes) * self.half, axis=-2))
+
+    def discs(self) -> tuple[Points, Floats]:
+        """Discs that hold the junctions: centres and radii, shape (K + 1, m)."""
+        tilt = np.minimum(self.spread, np.pi / 2)
+        centres = junctions(self.chain.base[self.which], self.steps * np.cos(tilt))
+        grown = np.cumsum(self.chain.lengths[:, None] * np.sin(tilt), axis=0)
+        grown = np.concatenate([np.zeros_like(grown[:1]), grown])
+        return centres, grown * self.chain.stretch[0, self.which]
+
+    def effects(self, relevant: Floats) -> Floats:
+        """How far each control may move the bones that matter, shape (K, m).
+
+        Args:
+            relevant: 1 for bones that matter, else 0, shape (K, m).
+        """
+        moved = relevant * self.chain.lengths[:, None]
+        last = np.maximum.accumulate(relevant[::-1], axis=0)[::-1]
+        moved = last * self.chain.lengths[:, None]
+        return np.asarray(self.half * np.cumsum(moved[::-1], axis=0)[::-1])
+
+
+def lower_bounds(
+    chain: AxisChain, middle: Floats, half: Floats, which: Indices, limit: Floats
+) -> BoxBounds:
+    """Lower bounds of D.
+
+    Args:
+        chain: The chains.
+        middle: Middles of the boxes, shape (K, m).
+        half: Their half widths, shape (K, m).
+        which: Index of the axis of each, shape (m,).
+        limit: Values of D above which it does not matter, shape (m,).
+
+    Returns:
+        The bounds.
+    """
+    views = _Views.of(chain, middle, half, which)
+    contact, normal = views.contact, views.contact.normal
+    seen = project(normal[:, None], views.steps[None])
+    ends = np.cumsum(seen, axis=1) + project(normal, chain.base[which])[:, None]
+    bends = np.cumsum(views.bend(normal, -1.0), axis=1)
+    rows = np.arange(chain.count)
+    least = np.full_like(contact.gap, np.inf)
+    for back in (1, 0):
+        rates = contact.rates[:-1] if back else contact.rates[1:]
+        moved = views.moved(chain.turned(normal, rates, contact.rates))
+        value = ends[rows, rows - back] - bends[rows, rows - back] - moved
+        if back:
+            value[0] = project(normal[0], chain.base[which])
+        least = np.minimum(least, value)
+    centres, grown = views.discs()
+    _, points = nearest_on(centres[:-1], np.diff(centres, axis=0))
+    least = np.maximum(least, np.abs(points) - grown[1:])
+    least = np.maximum(least, 0.0) - chain.radii[:, None]
+    relevant = (least < limit).astype(float)
+    return BoxBounds(least.min(axis=0), contact.gap.min(axis=0), views.effects(relevant))
+
+
+def upper_bounds(
+    chain: AxisChain, middle: Floats, half: Floats, which: Indices, limit: Floats
+) -> BoxBounds:
+    """Upper bounds of D, or the limit where that is greater.
+
+    Where several bones bound D, their bounds are combined: where one lets D grow,
+    another may not.
+
+    Args:
+        chain: The chains.
+        middle: Middles of the boxes, shape (K, m).
+        half: Their half widths, shape (K, m).
+        which: Index of the axis of each, shape (m,).
+        limit: Values of D below which it does not matter, shape (m,).
+
+    Returns:
+        The bounds.
+    """
+    views = _Views.of(chain, middle, half, which)
+    value, slope, slack = _outer_pieces(views)
+    reach = views.moved(slope) + slack
+    first = np.argmin(value + reach, axis=0)
+    goal = _piece(value, slope, slack, half, first)
+    others = [
+        _piece(value - limit, slope, slack, half, np.full_like(first, k))
+        for k in range(chain.count)
+    ]
+    bound = np.maximum(most_under(goal, others, PASSES), limit)
+    relevant = (value - reach < limit).astype(float)
+    relevant[first, np.arange(len(first))] = 1.0
+    effect = views.effects(relevant)
+    return BoxBounds(bound, views.contact.gap.min(axis=0), effect)
+
+
+def _piece(
+    value: Floats, slope: Floats, slack: Floats, half: Floats, index: Indices
+) -> Expansion:
+    """One piece of each box as an expansion."""
+    row = np.arange(len(index))
+    return Expansion(
+        value[index, row], slope[index, :, row].T, slack[index, row], half
+    )
+
+
+def _outer_pieces(views: _Views) -> tuple[Floats, Floats, Floats]:
+    """First-order upper bounds of each bone's distance, less its skin's radius.
+
+    Those of the point that is nearest at the middle: along its direction n, and off
+    it by its coordinate across, of which √(a² + b²) ≤ a + b²/2a.
+
+    Returns:
+        Values, shape (K, m), slopes, shape (K, K, m), and slacks, shape (K, m).
+    """
+    chain, contact, normal = views.chain, views.contact, views.contact.normal
+    value = contact.gap + chain.radii[:, None]
+    rates, t = contact.rates, contact.t
+    ends = (1 - t) * rates[:-1] + t * rates[1:]
+    slope = chain.turned(normal, ends, rates)
+    parts = np.tri(chain.count, k=-1)[..., None] + np.eye(chain.count)[..., None] * t
+    up, down = (np.sum(parts * views.bend(normal, side), axis=1) for side in (1, -1))
+    across = 1j * normal
+    aside = views.moved(chain.turned(across, ends, rates))
+    aside += np.sum(
+        parts * np.maximum(views.bend(across, 1), views.bend(across, -1)), axis=1
+    )
+    low = np.maximum(value - views.moved(slope) - down, 1e-6)
+    slack = up + aside**2 / (2 * low)
+    centres, grown = views.discs()
+    place, points = nearest_on(centres[:-1], np.diff(centres, axis=0))
+    coarse = np.abs(points) + (1 - place) * grown[:-1] + place * grown[1:]
+    wide = (coarse < value + views.moved(slope) + slack) | (low <= 1e-6)
+    value = np.where(wide, coarse, value) - chain.radii[:, None]
+    slope = np.where(wide[:, None], 0.0, slope)
+    return value, slope, np.where(wide, 0.0, slack)
