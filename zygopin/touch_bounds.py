@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from zygopin.axis_chain import (
     AxisChain,
@@ -40,6 +41,19 @@ class BoxBounds:
     bound: Floats
     value: Floats
     effect: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Goal:
+    """What a search wants to know of boxes.
+
+    Attributes:
+        limit: For each axis, the D beyond which a box does not matter, shape (n,).
+        normal: Directions of the witness's nearest points, shape (K, n).
+    """
+
+    limit: Floats
+    normal: Points
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,13 +99,17 @@ class _Views:
             Bounds of phalanx m's part in bone k's, shape (K, K, m).
         """
         seen = project(normal[:, None], self.steps[None])
-        height = np.hypot(
+        height = self.height(normal)
+        bent = np.clip(height * self.spread - side * seen, 0.0, height)
+        return np.asarray(bent * (self.spread**2 / 2))
+
+    def height(self, normal: Points) -> Floats:
+        """Heights A of the steps' waves along each bone's direction, (K, K, m)."""
+        across = np.hypot(
             project(normal, self.chain.ahead[self.which]),
             project(normal, self.chain.up[self.which]),
         )
-        height = height[:, None] * self.chain.lengths[:, None]
-        bent = np.clip(height * self.spread - side * seen, 0.0, height)
-        return np.asarray(bent * (self.spread**2 / 2))
+        return np.asarray(across[:, None] * self.chain.lengths[:, None])
 
     def moved(self, slopes: Floats) -> Floats:
         """Most that slopes along the controls change a value by, (…, K, m)."""
@@ -105,20 +123,64 @@ class _Views:
         grown = np.concatenate([np.zeros_like(grown[:1]), grown])
         return centres, grown * self.chain.stretch[0, self.which]
 
-    def effects(self, relevant: Floats) -> Floats:
+    def least_along(self, normal: Points) -> Floats:
+        """Least coordinate of each bone along a direction.
+
+        That of the nearer end. The steps to it are waves: each at its least, or all
+        by their slopes together, their curvature bounded.
+
+        Args:
+            normal: A direction for each bone, shape (K, m).
+
+        Returns:
+            The bounds, shape (K, m).
+        """
+        chain, rates = self.chain, self.contact.rates
+        seen = project(normal[:, None], self.steps[None])
+        base = project(normal, chain.base[self.which])
+        alone = self.least_waves(normal, seen)
+        joint = seen - self.bend(normal, -1.0)
+        least = np.full_like(base, np.inf)
+        for part, ends in (
+            (np.tri(chain.count, k=-1), rates[:-1]),
+            (chain.bearing, rates[1:]),
+        ):
+            apart = np.einsum("km,kmb->kb", part.astype(float), alone)
+            together = np.einsum("km,kmb->kb", part.astype(float), joint)
+            together -= self.moved(chain.turned(normal, ends, rates))
+            least = np.minimum(least, np.maximum(apart, together))
+        return np.asarray(base + least)
+
+    def least_waves(self, normal: Points, seen: Floats) -> Floats:
+        """Least coordinate of each step along each bone's direction, (K, K, m).
+
+        Args:
+            normal: A direction for each bone, shape (K, m).
+            seen: The coordinates at the middle, shape (K, K, m).
+        """
+        height, turn = self.height(normal), np.minimum(self.spread, np.pi)
+        slope = np.sqrt(np.maximum(height**2 - seen**2, 0.0))
+        ends = seen * np.cos(turn) - slope * np.sin(turn)
+        return np.where(-seen >= height * np.cos(turn), -height, ends)
+
+    def travel(self) -> Floats:
+        """Farthest that a point of each bone moves from where it is, shape (K, m)."""
+        moved = self.chain.lengths[:, None] * np.minimum(self.spread, 2.0)
+        return np.cumsum(moved, axis=0) * self.chain.stretch[0, self.which]
+
+    def effects(self, relevant: NDArray[np.bool_]) -> Floats:
         """How far each control may move the bones that matter, shape (K, m).
 
         Args:
-            relevant: 1 for bones that matter, else 0, shape (K, m).
+            relevant: Which bones matter, shape (K, m).
         """
-        moved = relevant * self.chain.lengths[:, None]
-        last = np.maximum.accumulate(relevant[::-1], axis=0)[::-1]
+        last = np.logical_or.accumulate(relevant[::-1], axis=0)[::-1]
         moved = last * self.chain.lengths[:, None]
         return np.asarray(self.half * np.cumsum(moved[::-1], axis=0)[::-1])
 
 
 def lower_bounds(
-    chain: AxisChain, middle: Floats, half: Floats, which: Indices, limit: Floats
+    chain: AxisChain, middle: Floats, half: Floats, which: Indices, goal: Goal
 ) -> BoxBounds:
     """Lower bounds of D.
 
@@ -127,35 +189,25 @@ def lower_bounds(
         middle: Middles of the boxes, shape (K, m).
         half: Their half widths, shape (K, m).
         which: Index of the axis of each, shape (m,).
-        limit: Values of D above which it does not matter, shape (m,).
+        goal: What matters to each axis.
 
     Returns:
         The bounds.
     """
     views = _Views.of(chain, middle, half, which)
-    contact, normal = views.contact, views.contact.normal
-    seen = project(normal[:, None], views.steps[None])
-    ends = np.cumsum(seen, axis=1) + project(normal, chain.base[which])[:, None]
-    bends = np.cumsum(views.bend(normal, -1.0), axis=1)
-    rows = np.arange(chain.count)
-    least = np.full_like(contact.gap, np.inf)
-    for back in (1, 0):
-        rates = contact.rates[:-1] if back else contact.rates[1:]
-        moved = views.moved(chain.turned(normal, rates, contact.rates))
-        value = ends[rows, rows - back] - bends[rows, rows - back] - moved
-        if back:
-            value[0] = project(normal[0], chain.base[which])
-        least = np.minimum(least, value)
     centres, grown = views.discs()
     _, points = nearest_on(centres[:-1], np.diff(centres, axis=0))
-    least = np.maximum(least, np.abs(points) - grown[1:])
-    least = np.maximum(least, 0.0) - chain.radii[:, None]
-    relevant = (least < limit).astype(float)
-    return BoxBounds(least.min(axis=0), contact.gap.min(axis=0), views.effects(relevant))
+    least = np.maximum(np.abs(points) - grown[1:], 0.0)
+    for normal in (views.contact.normal, goal.normal[:, which]):
+        least = np.maximum(least, views.least_along(normal))
+    least -= chain.radii[:, None]
+    gap = views.contact.gap
+    effect = views.effects(least < goal.limit[which])
+    return BoxBounds(least.min(axis=0), gap.min(axis=0), effect)
 
 
 def upper_bounds(
-    chain: AxisChain, middle: Floats, half: Floats, which: Indices, limit: Floats
+    chain: AxisChain, middle: Floats, half: Floats, which: Indices, goal: Goal
 ) -> BoxBounds:
     """Upper bounds of D, or the limit where that is greater.
 
@@ -167,7 +219,7 @@ def upper_bounds(
         middle: Middles of the boxes, shape (K, m).
         half: Their half widths, shape (K, m).
         which: Index of the axis of each, shape (m,).
-        limit: Values of D below which it does not matter, shape (m,).
+        goal: What matters to each axis.
 
     Returns:
         The bounds.
@@ -176,16 +228,16 @@ def upper_bounds(
     value, slope, slack = _outer_pieces(views)
     reach = views.moved(slope) + slack
     first = np.argmin(value + reach, axis=0)
-    goal = _piece(value, slope, slack, half, first)
+    least, limit = _piece(value, slope, slack, half, first), goal.limit[which]
     others = [
         _piece(value - limit, slope, slack, half, np.full_like(first, k))
         for k in range(chain.count)
     ]
-    bound = np.maximum(most_under(goal, others, PASSES), limit)
-    relevant = (value - reach < limit).astype(float)
-    relevant[first, np.arange(len(first))] = 1.0
-    effect = views.effects(relevant)
-    return BoxBounds(bound, views.contact.gap.min(axis=0), effect)
+    bound = np.maximum(most_under(least, others, PASSES), limit)
+    gap = views.contact.gap
+    low = gap - np.where(reach > 0, np.minimum(reach, views.travel()), views.travel())
+    effect = views.effects(low < limit)
+    return BoxBounds(bound, gap.min(axis=0), effect)
 
 
 def _piece(
@@ -193,9 +245,7 @@ def _piece(
 ) -> Expansion:
     """One piece of each box as an expansion."""
     row = np.arange(len(index))
-    return Expansion(
-        value[index, row], slope[index, :, row].T, slack[index, row], half
-    )
+    return Expansion(value[index, row], slope[index, :, row].T, slack[index, row], half)
 
 
 def _outer_pieces(views: _Views) -> tuple[Floats, Floats, Floats]:

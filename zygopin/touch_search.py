@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin.axis_chain import AxisChain, Floats, Indices
-from zygopin.touch_bounds import BoxBounds, lower_bounds, upper_bounds
+from zygopin.touch_bounds import BoxBounds, Goal, lower_bounds, upper_bounds
 from zygopin.touch_witness import first_witnesses, improved
 
 CACHED = 100_000
@@ -22,7 +22,7 @@ CACHED = 100_000
 ROUNDING = 64 * np.finfo(float).eps
 """Rounding of D, over the finger's length and the base's distance from the axis."""
 
-Bounder = Callable[[AxisChain, Floats, Floats, Indices, Floats], BoxBounds]
+Bounder = Callable[[AxisChain, Floats, Floats, Indices, Goal], BoxBounds]
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,14 +152,19 @@ class _Search:
     def bounded(self, middle: Floats, half: Floats, which: Indices) -> _Boxes:
         """Boxes with their bounds; their middles may be better witnesses."""
         size = max(256, CACHED // self.chain.count**2)
+        nearest = self.chain.contact(self.controls, np.arange(len(self.floor)))
+        goal = Goal(self.sign * (self.best - self.tolerance), nearest.normal)
         parts = []
         for start in range(0, len(which), size):
             part = slice(start, start + size)
             cut = middle[:, part], half[:, part], which[part]
-            limit = self.sign * (self.best - self.tolerance)[which[part]]
-            found = self.bounder(self.chain, *cut, limit)
-            parts.append((self.sign * found.bound, self.sign * found.value, found.effect))
-        cost, value, effect = (np.concatenate(x, axis=-1) for x in zip(*parts, strict=True))
+            found = self.bounder(self.chain, *cut, goal)
+            parts.append(
+                (self.sign * found.bound, self.sign * found.value, found.effect)
+            )
+        cost, value, effect = (
+            np.concatenate(x, axis=-1) for x in zip(*parts, strict=True)
+        )
         self.boxes += np.bincount(which, minlength=len(self.floor))
         self.take_witnesses(value, middle, which)
         return _Boxes(middle, half, which, cost, effect)
@@ -198,7 +203,5 @@ class _Search:
         order = np.lexsort((boxes.cost, boxes.which))
         first = order[np.unique(boxes.which[order], return_index=True)[1]]
         which = boxes.which[first]
-        controls, value = improved(
-            self.chain, boxes.middle[:, first], which, self.sign
-        )
+        controls, value = improved(self.chain, boxes.middle[:, first], which, self.sign)
         self.take_witnesses(self.sign * value, controls, which)

@@ -120,8 +120,17 @@ def _nearer(
     slope = chain.slopes(contact)[nearest, :, row].T
     down = np.where(slope > 0, bounds[0], np.where(slope < 0, bounds[1], 0.0))
     distance = contact.gap[nearest, row] + chain.radii[nearest]
+    steepest = np.max(np.abs(slope), axis=0)
+    sliding = -slope * np.max(np.abs(down), axis=0) / np.maximum(steepest, TINY)
     onto = -slope * distance / np.maximum(np.sum(slope**2, axis=0), TINY)
-    return np.concatenate([down[..., None] * FRACTIONS, onto[..., None]], axis=-1)
+    return np.concatenate(
+        [
+            down[..., None] * FRACTIONS,
+            sliding[..., None] * FRACTIONS,
+            onto[..., None],
+        ],
+        axis=-1,
+    )
 
 
 def _farther(
