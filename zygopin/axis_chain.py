@@ -20,6 +20,10 @@ Floats = NDArray[np.float64]
 Points = NDArray[np.complex128]
 Indices = NDArray[np.intp]
 
+ROUNDING = 64 * np.finfo(float).eps
+"""Rounding of a distance, over the lengths of which it is the difference: a dozen
+phalanges add a few units in the last place each."""
+
 TINY = 1e-300
 """Keeps a division by a length of zero finite."""
 
@@ -32,6 +36,7 @@ class Contact:
         gap: Distance of each bone from the axis, less its skin's radius, shape (K, m).
         normal: Unit directions from the axis to the nearest points, shape (K, m).
         t: Where those are on the bones, in [0, 1], shape (K, m).
+        steps: The bones, from start to end, shape (K, m).
         rates: What each angle θ moves the junctions by together, shape (K + 1, m):
             junction j moves by rates[j] − rates[i − 1] as joint i turns.
     """
@@ -39,7 +44,13 @@ class Contact:
     gap: Floats
     normal: Points
     t: Floats
+    steps: Points
     rates: Points
+
+    @property
+    def ends(self) -> Points:
+        """Rates of the nearest points, shape (K, m)."""
+        return np.asarray((1 - self.t) * self.rates[:-1] + self.t * self.rates[1:])
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +61,7 @@ class AxisChain:
         base: The base, seen from the axis, shape (n,).
         ahead: Projection u of the straight finger's direction, shape (n,).
         up: Projection w of the direction up, shape (n,).
+        rounding: What rounding may change a distance by, shape (n,).
         lengths: Lengths of the phalanges, shape (K,).
         radii: Radii of their skin, shape (K,).
         orientation: The initial orientation v₀ [rad].
@@ -59,6 +71,7 @@ class AxisChain:
     base: Points
     ahead: Points
     up: Points
+    rounding: Floats
     lengths: Floats
     radii: Floats
     orientation: float
@@ -87,6 +100,7 @@ class AxisChain:
             _complex(np.einsum("nij,ni->nj", across, nearest) / length),
             _complex(forward @ across),
             _complex(across[:, 2]),
+            ROUNDING * (1 + np.linalg.norm(axes.centre, axis=-1) / length),
             foot.lengths[part] / length,
             foot.radii[part] / length,
             finger.orientation,
@@ -100,14 +114,29 @@ class AxisChain:
 
     @cached_property
     def stretch(self) -> Floats:
-        """Largest and smallest length of a unit step's projection, shape (2, n)."""
-        both = np.hypot(
-            np.abs(self.ahead) ** 2 - np.abs(self.up) ** 2,
-            2 * np.real(self.ahead * self.up.conj()),
-        )
-        most = np.sqrt((np.abs(self.ahead) ** 2 + np.abs(self.up) ** 2 + both) / 2)
-        area = np.abs(np.imag(self.ahead.conj() * self.up))
-        return np.stack([most, area / np.maximum(most, TINY)])
+        """Greatest length of a unit step's projection, shape (n,)."""
+        mean = (np.abs(self.ahead) ** 2 + np.abs(self.up) ** 2) / 2
+        return np.sqrt(mean + np.abs(self.ahead**2 + self.up**2) / 2)
+
+    @cached_property
+    def narrow(self) -> Points:
+        """Unit direction along which the steps' projections are shortest, (n,)."""
+        longest = np.sqrt(self.ahead**2 + self.up**2)
+        size = np.abs(longest)
+        return 1j * np.where(size > 0, longest / np.maximum(size, TINY), 1.0)
+
+    def height(self, normal: Points, which: Indices) -> Floats:
+        """Greatest coordinate of a unit step along directions.
+
+        Args:
+            normal: Unit directions, shape (…, m).
+            which: Index of the axis of each, shape (m,).
+
+        Returns:
+            √((n·u)² + (n·w)²), shape (…, m).
+        """
+        ahead, up = self.ahead[which], self.up[which]
+        return np.hypot(project(normal, ahead), project(normal, up))
 
     def steps(self, controls: Floats, which: Indices) -> tuple[Points, Points]:
         """Steps of the phalanges, and what they change by as their angles grow.
@@ -141,7 +170,7 @@ class AxisChain:
         distance = np.abs(points)
         normal = np.where(distance > 0, points / np.maximum(distance, TINY), 1.0)
         gap = distance - self.radii[:, None]
-        return Contact(gap, normal, t, junctions(np.zeros(len(which)), rates))
+        return Contact(gap, normal, t, steps, junctions(np.zeros(len(which)), rates))
 
     def distance(self, controls: Floats, which: Indices) -> Floats:
         """D: least distance of a bone from the axis less its skin's radius.
@@ -166,9 +195,7 @@ class AxisChain:
         Returns:
             Slopes of phalanx k's gap along control i, shape (K, K, m).
         """
-        rates, t = contact.rates, contact.t
-        ends = (1 - t) * rates[:-1] + t * rates[1:]
-        return self.turned(contact.normal, ends, rates)
+        return self.turned(contact.normal, contact.ends, contact.rates)
 
     def turned(self, normal: Points, ends: Points, rates: Points) -> Floats:
         """Slopes of the coordinates of points of the bones along directions.

@@ -24,6 +24,10 @@ from zygopin.axis_chain import (
 )
 from zygopin.expansion import Expansion, most_under
 
+NEAR = 1e-6
+"""Distance from the axis, over the finger's length, below which only discs bound how
+far a bone gets: directions turn too fast there."""
+
 PASSES = 2
 """How often each multiplier is improved where several bones bound together."""
 
@@ -64,7 +68,6 @@ class _Views:
         chain: The chains.
         which: Index of the axis of each box, shape (m,).
         half: Half widths, shape (K, m).
-        steps: Steps of the phalanges at the middles, shape (K, m).
         contact: Where the bones are nearest there.
         spread: Most that the angles θ differ from the middle's [rad], shape (K, m).
     """
@@ -72,7 +75,6 @@ class _Views:
     chain: AxisChain
     which: Indices
     half: Floats
-    steps: Points
     contact: Contact
     spread: Floats
 
@@ -80,10 +82,9 @@ class _Views:
     def of(
         cls, chain: AxisChain, middle: Floats, half: Floats, which: Indices
     ) -> _Views:
-        steps, _ = chain.steps(middle, which)
         contact = chain.contact(middle, which)
         spread = chain.omega * np.cumsum(half, axis=0)
-        return cls(chain, which, half, steps, contact, spread)
+        return cls(chain, which, half, contact, spread)
 
     def bend(self, normal: Points, side: float) -> Floats:
         """Most that curvature moves each step along each bone's direction.
@@ -98,17 +99,14 @@ class _Views:
         Returns:
             Bounds of phalanx m's part in bone k's, shape (K, K, m).
         """
-        seen = project(normal[:, None], self.steps[None])
+        seen = project(normal[:, None], self.contact.steps[None])
         height = self.height(normal)
         bent = np.clip(height * self.spread - side * seen, 0.0, height)
         return np.asarray(bent * (self.spread**2 / 2))
 
     def height(self, normal: Points) -> Floats:
         """Heights A of the steps' waves along each bone's direction, (K, K, m)."""
-        across = np.hypot(
-            project(normal, self.chain.ahead[self.which]),
-            project(normal, self.chain.up[self.which]),
-        )
+        across = self.chain.height(normal, self.which)
         return np.asarray(across[:, None] * self.chain.lengths[:, None])
 
     def moved(self, slopes: Floats) -> Floats:
@@ -118,10 +116,38 @@ class _Views:
     def discs(self) -> tuple[Points, Floats]:
         """Discs that hold the junctions: centres and radii, shape (K + 1, m)."""
         tilt = np.minimum(self.spread, np.pi / 2)
-        centres = junctions(self.chain.base[self.which], self.steps * np.cos(tilt))
+        centres = junctions(
+            self.chain.base[self.which], self.contact.steps * np.cos(tilt)
+        )
         grown = np.cumsum(self.chain.lengths[:, None] * np.sin(tilt), axis=0)
         grown = np.concatenate([np.zeros_like(grown[:1]), grown])
-        return centres, grown * self.chain.stretch[0, self.which]
+        return centres, grown * self.chain.stretch[self.which]
+
+    def point_bend(self, normal: Points, side: float) -> Floats:
+        """Most that curvature moves the nearest points of the middle, shape (K, m).
+
+        Args:
+            normal: A direction for each bone, shape (K, m).
+            side: −1: down, 1: up.
+        """
+        whole = np.tri(self.chain.count, k=-1)
+        bend = self.bend(normal, side)
+        last = np.einsum("kkm->km", bend)
+        return np.einsum("kj,kjm->km", whole, bend) + self.contact.t * last
+
+    def aside(self) -> Floats:
+        """Most that those points move across their directions, shape (K, m)."""
+        contact = self.contact
+        across = 1j * contact.normal
+        slope = self.chain.turned(across, contact.ends, contact.rates)
+        bends = self.point_bend(across, 1), self.point_bend(across, -1)
+        return self.moved(slope) + np.maximum(*bends)
+
+    def disc_bounds(self) -> Floats:
+        """Upper bounds of the bones' distances from the discs, shape (K, m)."""
+        centres, grown = self.discs()
+        t, points = nearest_on(centres[:-1], np.diff(centres, axis=0))
+        return np.asarray(np.abs(points) + (1 - t) * grown[:-1] + t * grown[1:])
 
     def least_along(self, normal: Points) -> Floats:
         """Least coordinate of each bone along a direction.
@@ -136,17 +162,18 @@ class _Views:
             The bounds, shape (K, m).
         """
         chain, rates = self.chain, self.contact.rates
-        seen = project(normal[:, None], self.steps[None])
+        seen = project(normal[:, None], self.contact.steps[None])
         base = project(normal, chain.base[self.which])
         alone = self.least_waves(normal, seen)
         joint = seen - self.bend(normal, -1.0)
         least = np.full_like(base, np.inf)
+        nearer = np.tri(chain.count, k=-1)
         for part, ends in (
-            (np.tri(chain.count, k=-1), rates[:-1]),
-            (chain.bearing, rates[1:]),
+            (nearer, rates[:-1]),
+            (nearer + np.eye(chain.count), rates[1:]),
         ):
-            apart = np.einsum("km,kmb->kb", part.astype(float), alone)
-            together = np.einsum("km,kmb->kb", part.astype(float), joint)
+            apart = np.einsum("kj,kjm->km", part, alone)
+            together = np.einsum("kj,kjm->km", part, joint)
             together -= self.moved(chain.turned(normal, ends, rates))
             least = np.minimum(least, np.maximum(apart, together))
         return np.asarray(base + least)
@@ -166,7 +193,7 @@ class _Views:
     def travel(self) -> Floats:
         """Farthest that a point of each bone moves from where it is, shape (K, m)."""
         moved = self.chain.lengths[:, None] * np.minimum(self.spread, 2.0)
-        return np.cumsum(moved, axis=0) * self.chain.stretch[0, self.which]
+        return np.cumsum(moved, axis=0) * self.chain.stretch[self.which]
 
     def effects(self, relevant: NDArray[np.bool_]) -> Floats:
         """How far each control may move the bones that matter, shape (K, m).
@@ -252,29 +279,21 @@ def _outer_pieces(views: _Views) -> tuple[Floats, Floats, Floats]:
     """First-order upper bounds of each bone's distance, less its skin's radius.
 
     Those of the point that is nearest at the middle: along its direction n, and off
-    it by its coordinate across, of which √(a² + b²) ≤ a + b²/2a.
+    it by its coordinate across, of which √(a² + b²) ≤ a + b²/2a. Where a disc holds
+    the bone nearer, its bound alone.
 
     Returns:
         Values, shape (K, m), slopes, shape (K, K, m), and slacks, shape (K, m).
     """
-    chain, contact, normal = views.chain, views.contact, views.contact.normal
+    chain, contact = views.chain, views.contact
     value = contact.gap + chain.radii[:, None]
-    rates, t = contact.rates, contact.t
-    ends = (1 - t) * rates[:-1] + t * rates[1:]
-    slope = chain.turned(normal, ends, rates)
-    parts = np.tri(chain.count, k=-1)[..., None] + np.eye(chain.count)[..., None] * t
-    up, down = (np.sum(parts * views.bend(normal, side), axis=1) for side in (1, -1))
-    across = 1j * normal
-    aside = views.moved(chain.turned(across, ends, rates))
-    aside += np.sum(
-        parts * np.maximum(views.bend(across, 1), views.bend(across, -1)), axis=1
-    )
-    low = np.maximum(value - views.moved(slope) - down, 1e-6)
-    slack = up + aside**2 / (2 * low)
-    centres, grown = views.discs()
-    place, points = nearest_on(centres[:-1], np.diff(centres, axis=0))
-    coarse = np.abs(points) + (1 - place) * grown[:-1] + place * grown[1:]
-    wide = (coarse < value + views.moved(slope) + slack) | (low <= 1e-6)
+    slope = chain.slopes(contact)
+    reach = views.moved(slope)
+    low = np.maximum(value - reach - views.point_bend(contact.normal, -1), NEAR)
+    aside = views.aside()
+    slack = views.point_bend(contact.normal, 1) + aside**2 / (2 * low)
+    coarse = views.disc_bounds()
+    wide = (coarse < value + reach + slack) | (low <= NEAR)
     value = np.where(wide, coarse, value) - chain.radii[:, None]
     slope = np.where(wide[:, None], 0.0, slope)
     return value, slope, np.where(wide, 0.0, slack)

@@ -12,15 +12,12 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin.axis_chain import AxisChain, Floats, Indices
+from zygopin.axis_chain import AxisChain, Floats, Indices, project
 from zygopin.touch_bounds import BoxBounds, Goal, lower_bounds, upper_bounds
 from zygopin.touch_witness import first_witnesses, improved
 
 CACHED = 100_000
 """Numbers of the largest arrays that boxes are bounded with: they stay in the cache."""
-
-ROUNDING = 64 * np.finfo(float).eps
-"""Rounding of D, over the finger's length and the base's distance from the axis."""
 
 Bounder = Callable[[AxisChain, Floats, Floats, Indices, Goal], BoxBounds]
 
@@ -76,8 +73,7 @@ def least_distance(chain: AxisChain, tolerance: float, max_boxes: int) -> Extrem
     Returns:
         Lower bounds, and what witnesses attain.
     """
-    off_plane = np.abs(chain.base) if chain.count == 0 else _off_plane(chain)
-    floor = np.min(off_plane - chain.radii[:, None], axis=0)
+    floor = np.min(_off_plane(chain) - chain.radii[:, None], axis=0)
     return _Search(chain, 1.0, lower_bounds, floor, tolerance).run(max_boxes)
 
 
@@ -97,18 +93,16 @@ def greatest_distance(chain: AxisChain, tolerance: float, max_boxes: int) -> Ext
 
 
 def _off_plane(chain: AxisChain) -> Floats:
-    """Least distance of the bones' part of the finger's plane, shape (K, n).
+    """Lower bound of the bones' distances, zero unless the finger's plane is edge-on.
 
-    Across the direction in which steps are projected longest they are at most the
-    smallest stretch of their length.
+    Along one direction the steps reach least, and the base may lie farther off.
+
+    Returns:
+        Bounds for each bone, shape (K, n).
     """
-    narrow = chain.stretch[1]
-    turn = np.where(np.abs(chain.ahead) > np.abs(chain.up), chain.ahead, chain.up)
-    square = chain.ahead**2 + chain.up**2
-    along = np.where(np.abs(square) > 1e-12, np.sqrt(square), turn)
-    along = along / np.abs(along)
-    aside = np.abs(np.imag(chain.base * along.conj()))
-    return np.maximum(aside - narrow * np.cumsum(chain.lengths)[:, None], 0.0)
+    aside = np.abs(project(chain.narrow, chain.base))
+    reach = chain.height(chain.narrow, np.arange(len(aside)))
+    return np.maximum(aside - reach * np.cumsum(chain.lengths)[:, None], 0.0)
 
 
 class _Search:
@@ -124,9 +118,8 @@ class _Search:
     ) -> None:
         self.chain, self.sign, self.bounder = chain, sign, bounder
         self.floor = floor
-        self.margin = ROUNDING * (1 + np.abs(chain.base))
-        self.tolerance = tolerance - 2 * self.margin
-        value, self.controls = first_witnesses(chain, sign)
+        self.tolerance = tolerance - 2 * chain.rounding
+        value, self.controls = first_witnesses(chain, sign, floor)
         self.best = sign * value
         self.left = np.full(len(floor), np.inf)
         self.boxes = np.zeros(len(floor), dtype=np.intp)
@@ -139,8 +132,8 @@ class _Search:
             open_boxes = self.pruned(self.halved(open_boxes), max_boxes)
             if turn & (turn - 1) == 0 and open_boxes.which.size:
                 self.descend(open_boxes)
-        bound = np.maximum(np.minimum(self.left, self.best), self.floor) - self.margin
-        sign = self.sign
+        bound = np.maximum(np.minimum(self.left, self.best), self.floor)
+        bound, sign = bound - self.chain.rounding, self.sign
         return Extreme(sign * bound, sign * self.best, self.controls, self.boxes)
 
     def whole(self) -> _Boxes:

@@ -50,27 +50,32 @@ def start_controls(count: int) -> Floats:
     return np.concatenate([corners, even], axis=1)
 
 
-def first_witnesses(chain: AxisChain, sign: float) -> tuple[Floats, Floats]:
+def first_witnesses(
+    chain: AxisChain, sign: float, floor: Floats
+) -> tuple[Floats, Floats]:
     """The best controls that descent finds for each axis.
 
     Args:
         chain: The chains before n axes.
         sign: 1 for the least D, −1 for the greatest.
+        floor: Least that sign·D can be, shape (n,): what is there needs no descent.
 
     Returns:
         Values of D, shape (n,), and controls, shape (K, n).
     """
     starts, axes = start_controls(chain.count), len(chain.base)
-    tried = starts.shape[1]
-    which = np.repeat(np.arange(axes), tried)
-    cost = sign * chain.distance(np.tile(starts, axes), which).reshape(axes, tried)
-    best = np.argsort(cost, axis=1, kind="stable")[:, :KEPT]
-    which = np.repeat(np.arange(axes), KEPT)
-    controls, value = improved(chain, starts[:, best.ravel()], which, sign)
-    best = np.argmin(sign * value.reshape(axes, KEPT), axis=1)
-    row = np.arange(axes)
-    chosen = row * KEPT + best
-    return value[chosen], controls[:, chosen]
+    which = np.repeat(np.arange(axes), starts.shape[1])
+    value = chain.distance(np.tile(starts, axes), which).reshape(axes, -1)
+    order = np.argsort(sign * value, axis=1, kind="stable")[:, :KEPT]
+    value = np.take_along_axis(value, order, axis=1)
+    controls = starts[:, order]
+    unmet = np.nonzero(sign * value[:, 0] > floor + chain.rounding)[0]
+    tried = controls[:, unmet].reshape(chain.count, KEPT * len(unmet))
+    better, found = improved(chain, tried, np.repeat(unmet, KEPT), sign)
+    controls[:, unmet] = better.reshape(chain.count, len(unmet), KEPT)
+    value[unmet] = found.reshape(len(unmet), KEPT)
+    best, row = np.argmin(sign * value, axis=1), np.arange(axes)
+    return value[row, best], controls[:, row, best]
 
 
 def improved(
@@ -88,7 +93,6 @@ def improved(
         Controls, shape (K, m), and their values of D, shape (m,): none is worse than
         its start.
     """
-    controls = controls.copy()
     value, trust = chain.distance(controls, which), np.full(len(which), 0.5)
     for _ in range(STEPS):
         contact = chain.contact(controls, which)
@@ -97,10 +101,10 @@ def improved(
         tried = controls[..., None] + step
         tried = np.clip(tried, 0.0, 1.0).reshape(len(controls), -1)
         found = chain.distance(tried, np.repeat(which, step.shape[-1]))
-        found = found.reshape(len(which), -1)
+        found = found.reshape(len(which), step.shape[-1])
         best, row = np.argmin(sign * found, axis=1), np.arange(len(which))
         better = sign * found[row, best] < sign * value
-        chosen = tried.reshape(*controls.shape, -1)[:, row, best]
+        chosen = tried.reshape(step.shape)[:, row, best]
         controls = np.where(better, chosen, controls)
         value = np.where(better, found[row, best], value)
         trust = np.where(better, trust, trust / 4)
