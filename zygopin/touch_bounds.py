@@ -186,7 +186,8 @@ class _Views:
             seen: The coordinates at the middle, shape (K, K, m).
         """
         height, turn = self.height(normal), np.minimum(self.spread, np.pi)
-        slope = np.sqrt(np.maximum(height**2 - seen**2, 0.0))
+        rates = np.diff(self.contact.rates, axis=0)
+        slope = np.abs(project(normal[:, None], rates[None]))
         ends = seen * np.cos(turn) - slope * np.sin(turn)
         return np.where(-seen >= height * np.cos(turn), -height, ends)
 

@@ -148,7 +148,7 @@ class _Search:
         nearest = self.chain.contact(self.controls, np.arange(len(self.floor)))
         goal = Goal(self.sign * (self.best - self.tolerance), nearest.normal)
         parts = []
-        for start in range(0, len(which), size):
+        for start in range(0, max(len(which), 1), size):
             part = slice(start, start + size)
             cut = middle[:, part], half[:, part], which[part]
             found = self.bounder(self.chain, *cut, goal)
@@ -174,10 +174,10 @@ class _Search:
         """Without boxes that cannot matter, nor those of axes that are settled."""
         goal = self.best - self.tolerance
         spent = (self.boxes >= max_boxes) & (max_boxes > 1)
-        closed = (boxes.cost >= goal[boxes.which]) | spent[boxes.which]
+        settled = (self.floor >= goal) | spent
+        closed = (boxes.cost >= goal[boxes.which]) | settled[boxes.which]
         np.minimum.at(self.left, boxes.which[closed], boxes.cost[closed])
-        settled = self.floor >= goal
-        return boxes.take(~closed & ~settled[boxes.which])
+        return boxes.take(~closed)
 
     def halved(self, boxes: _Boxes) -> _Boxes:
         """Both halves of each box, across the control with the largest effect."""

@@ -65,7 +65,7 @@ def first_witnesses(
     """
     starts, axes = start_controls(chain.count), len(chain.base)
     which = np.repeat(np.arange(axes), starts.shape[1])
-    value = chain.distance(np.tile(starts, axes), which).reshape(axes, -1)
+    value = chain.distance(np.tile(starts, axes), which).reshape(axes, starts.shape[1])
     order = np.argsort(sign * value, axis=1, kind="stable")[:, :KEPT]
     value = np.take_along_axis(value, order, axis=1)
     controls = starts[:, order]
