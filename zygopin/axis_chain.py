@@ -116,14 +116,15 @@ class AxisChain:
     def stretch(self) -> Floats:
         """Greatest length of a unit step's projection, shape (n,)."""
         mean = (np.abs(self.ahead) ** 2 + np.abs(self.up) ** 2) / 2
-        return np.sqrt(mean + np.abs(self.ahead**2 + self.up**2) / 2)
+        return np.asarray(np.sqrt(mean + np.abs(self.ahead**2 + self.up**2) / 2))
 
     @cached_property
     def narrow(self) -> Points:
         """Unit direction along which the steps' projections are shortest, (n,)."""
         longest = np.sqrt(self.ahead**2 + self.up**2)
         size = np.abs(longest)
-        return 1j * np.where(size > 0, longest / np.maximum(size, TINY), 1.0)
+        along = np.where(size > 0, longest / np.maximum(size, TINY), 1.0)
+        return np.asarray(1j * along)
 
     def height(self, normal: Points, which: Indices) -> Floats:
         """Greatest coordinate of a unit step along directions.
@@ -136,7 +137,7 @@ class AxisChain:
             √((n·u)² + (n·w)²), shape (…, m).
         """
         ahead, up = self.ahead[which], self.up[which]
-        return np.hypot(project(normal, ahead), project(normal, up))
+        return np.asarray(np.hypot(project(normal, ahead), project(normal, up)))
 
     def steps(self, controls: Floats, which: Indices) -> tuple[Points, Points]:
         """Steps of the phalanges, and what they change by as their angles grow.

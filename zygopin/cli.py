@@ -12,6 +12,7 @@ import click
 
 from zygopin.cli_reach import reach, validate
 from zygopin.cli_strike import strike
+from zygopin.cli_touch import touch
 from zygopin.command_group import OneLineErrors
 from zygopin.given_controls import read_controls
 from zygopin.options import (
@@ -51,6 +52,7 @@ def main() -> None:
 main.add_command(reach)
 main.add_command(validate)
 main.add_command(strike)
+main.add_command(touch)
 
 
 @main.command()

@@ -157,8 +157,8 @@ def foot_options_with(
     return decorated
 
 
-def branch_options(command: Command) -> Command:
-    """Add the options that place a branch, but for its height.
+def axis_options(command: Command) -> Command:
+    """Add the options that turn a branch's axis.
 
     Args:
         command: The command's function; gets them as keyword arguments.
@@ -167,7 +167,6 @@ def branch_options(command: Command) -> Command:
         The same function, decorated.
     """
     for option in (
-        click.option("--length-mm", "length", type=POSITIVE_MM, help="Or endless."),
         click.option(
             "--pitch-deg",
             "pitch",
@@ -182,6 +181,23 @@ def branch_options(command: Command) -> Command:
             default=0,
             help="Turn about z; 0: the axis is y, across the foot.",
         ),
+    ):
+        command = option(command)
+    return command
+
+
+def branch_options(command: Command) -> Command:
+    """Add the options that place a branch, but for its height.
+
+    Args:
+        command: The command's function; gets them as keyword arguments.
+
+    Returns:
+        The same function, decorated.
+    """
+    for option in (
+        click.option("--length-mm", "length", type=POSITIVE_MM, help="Or endless."),
+        axis_options,
         click.option(
             "--radius-mm",
             "radius",

@@ -73,7 +73,8 @@ class TouchIntervals:
     @property
     def width(self) -> Floats:
         """Width of the wider bracket [m], shape (…, F): the tolerance reached."""
-        return np.maximum(np.ptp(self.least, axis=-1), np.ptp(self.most, axis=-1))
+        widths = np.ptp(self.least, axis=-1), np.ptp(self.most, axis=-1)
+        return np.asarray(np.maximum(*widths))
 
     @property
     def converged(self) -> NDArray[np.bool_]:
@@ -309,19 +310,20 @@ def _intervals(
         return np.stack([lengths * side for side in sides], axis=-1)
 
     least, most = ends
-    controls = (
+    near, far = (
         np.concatenate([each.controls for each in found]).T.reshape(
             *shape, foot.phalanx_count
         )
         for found in ends
     )
-    boxes = [near.boxes + far.boxes for near, far in zip(least, most, strict=True)]
+    boxes = [a.boxes + b.boxes for a, b in zip(least, most, strict=True)]
     return TouchIntervals(
         foot,
         branch,
         bracket(least, "bound", "value"),
         bracket(most, "value", "bound"),
-        *controls,
+        near,
+        far,
         np.stack(boxes, axis=-1).reshape(*shape, len(lengths)),
         tolerance,
     )

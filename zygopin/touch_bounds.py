@@ -133,7 +133,7 @@ class _Views:
         whole = np.tri(self.chain.count, k=-1)
         bend = self.bend(normal, side)
         last = np.einsum("kkm->km", bend)
-        return np.einsum("kj,kjm->km", whole, bend) + self.contact.t * last
+        return np.asarray(np.einsum("kj,kjm->km", whole, bend) + self.contact.t * last)
 
     def aside(self) -> Floats:
         """Most that those points move across their directions, shape (K, m)."""

@@ -156,4 +156,4 @@ def _farther(
         step = np.where(pull > 0, bounds[1], np.where(pull < 0, bounds[0], 0.0))
         total += gap + np.sum(slope * step, axis=1)
         mean += (step - mean) / (turn + 1)
-    return mean[..., None] * FRACTIONS
+    return np.asarray(mean[..., None] * FRACTIONS)

@@ -235,6 +235,7 @@ def _closed(
     Returns:
         Controls of the joint, shape (n,), and which of them have converged.
     """
+
     def clearance(active: Indices, control: Floats) -> Floats:
         return _next_clearance(chain, old.take(active), rank, control)
 
