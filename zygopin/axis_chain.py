@@ -126,6 +126,17 @@ class AxisChain:
         along = np.where(size > 0, longest / np.maximum(size, TINY), 1.0)
         return np.asarray(1j * along)
 
+    @cached_property
+    def off_plane(self) -> Floats:
+        """Lower bounds of the bones' distances from the axis, shape (K, n).
+
+        Along one direction steps reach least, and the base may lie farther off: the
+        bounds are zero but where the finger's plane is seen nearly edge-on.
+        """
+        aside = np.abs(project(self.narrow, self.base))
+        reach = self.height(self.narrow, np.arange(len(aside)))
+        return np.maximum(aside - reach * np.cumsum(self.lengths)[:, None], 0.0)
+
     def height(self, normal: Points, which: Indices) -> Floats:
         """Greatest coordinate of a unit step along directions.
 

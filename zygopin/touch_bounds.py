@@ -225,7 +225,7 @@ def lower_bounds(
     views = _Views.of(chain, middle, half, which)
     centres, grown = views.discs()
     _, points = nearest_on(centres[:-1], np.diff(centres, axis=0))
-    least = np.maximum(np.abs(points) - grown[1:], 0.0)
+    least = np.maximum(np.abs(points) - grown[1:], chain.off_plane[:, which])
     for normal in (views.contact.normal, goal.normal[:, which]):
         least = np.maximum(least, views.least_along(normal))
     least -= chain.radii[:, None]

@@ -28,7 +28,7 @@ from zygopin.figures import (
 from zygopin.foot import Foot
 from zygopin.touch import touch_intervals
 
-OMEGAS = np.radians(np.linspace(5.0, 175.0, 18))
+OMEGAS = np.radians(np.linspace(5.0, 175.0, 35))
 """Joint limits that are drawn, unless said otherwise [rad]."""
 
 RHOS = np.linspace(1.05, 2.0, 20)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin.axis_chain import AxisChain, Floats, Indices, project
+from zygopin.axis_chain import AxisChain, Floats, Indices
 from zygopin.touch_bounds import BoxBounds, Goal, lower_bounds, upper_bounds
 from zygopin.touch_witness import first_witnesses, improved
 
@@ -73,7 +73,7 @@ def least_distance(chain: AxisChain, tolerance: float, max_boxes: int) -> Extrem
     Returns:
         Lower bounds, and what witnesses attain.
     """
-    floor = np.min(_off_plane(chain) - chain.radii[:, None], axis=0)
+    floor = np.min(chain.off_plane - chain.radii[:, None], axis=0)
     return _Search(chain, 1.0, lower_bounds, floor, tolerance).run(max_boxes)
 
 
@@ -90,19 +90,6 @@ def greatest_distance(chain: AxisChain, tolerance: float, max_boxes: int) -> Ext
     """
     floor = chain.radii[0] - np.abs(chain.base)
     return _Search(chain, -1.0, upper_bounds, floor, tolerance).run(max_boxes)
-
-
-def _off_plane(chain: AxisChain) -> Floats:
-    """Lower bound of the bones' distances, zero unless the finger's plane is edge-on.
-
-    Along one direction the steps reach least, and the base may lie farther off.
-
-    Returns:
-        Bounds for each bone, shape (K, n).
-    """
-    aside = np.abs(project(chain.narrow, chain.base))
-    reach = chain.height(chain.narrow, np.arange(len(aside)))
-    return np.maximum(aside - reach * np.cumsum(chain.lengths)[:, None], 0.0)
 
 
 class _Search:

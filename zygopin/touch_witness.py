@@ -21,7 +21,7 @@ KEPT = 3
 STEPS = 14
 """Steps of a descent: they shrink by a quarter where none is taken."""
 
-ROUNDS = 24
+ROUNDS = 12
 """Rounds of the game for one step."""
 
 FRACTIONS = np.array([1.0, 0.5, 0.2])
