@@ -43,6 +43,7 @@ LAYERS = (
     "touch_witness",
     "touch_search",
     "touch",
+    "touching",
     "stance",
     "spread",
     "urdf_check",

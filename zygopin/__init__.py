@@ -72,13 +72,9 @@ _HOMES = {
     "strike_scene": ("export_strike",),
     "tendon": ("Contact", "TendonFoot"),
     "toe_torque": ("joint_drive", "joint_torques", "tendon_drive", "torque_matrix"),
-    "touch": (
-        "TouchIntervals",
-        "TouchingControls",
-        "touch_intervals",
-        "touching_controls",
-    ),
+    "touch": ("TouchIntervals", "touch_intervals"),
     "touch_plots": ("plot_touch_bands",),
+    "touching": ("TouchingControls", "touching_controls"),
     "trajectory": ("StrikeEvent", "StrikeTrajectory"),
     "validation": ("ReachValidation", "ValidationRow", "validate_foot"),
 }

@@ -42,7 +42,7 @@ def touch(
     """
     from zygopin.branch import Branch, branch_axis
     from zygopin.touch import touch_intervals
-    from zygopin.touch_output import pair_lines, touch_document, touch_rows
+    from zygopin.touch_output import touch_document, touch_lines, touch_rows
 
     chosen = make_foot(**foot)
     axis = Branch(1.0, (ahead, 0.0, height), branch_axis(yaw, pitch))
@@ -59,7 +59,7 @@ def touch(
     click.echo(f"{chosen.name}: radii that are touched and not entered [mm]")
     headings = ("finger", "from", "no less than", "to", "no more than", "boxes")
     print_table(headings, touch_rows(found), "lrrrrr")
-    for line in pair_lines(found):
+    for line in touch_lines(found):
         click.echo(line)
     if png is not None:
         click.echo(f"figure: {png}")

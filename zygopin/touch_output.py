@@ -29,7 +29,7 @@ def touch_document(intervals: TouchIntervals) -> dict[str, Any]:
             {
                 "fingers": [foot.fingers[index].name for index in pair],
                 "radii": common_radii(intervals, pair),
-                "excluded": none_in_common(intervals, pair),
+                "proved_none": none_in_common(intervals, pair),
             }
             for pair in foot.opposable_pairs
         ],
@@ -56,14 +56,14 @@ def touch_rows(intervals: TouchIntervals) -> list[tuple[str, ...]]:
     return rows
 
 
-def pair_lines(intervals: TouchIntervals) -> list[str]:
+def touch_lines(intervals: TouchIntervals) -> list[str]:
     """Which radii both fingers of each opposable pair can touch, in words.
 
     Args:
         intervals: The intervals before one axis.
 
     Returns:
-        One line for each pair.
+        One line for each pair; one more where bounds are wider than wanted.
     """
     lines = []
     for pair in intervals.foot.opposable_pairs:
@@ -76,6 +76,10 @@ def pair_lines(intervals: TouchIntervals) -> list[str]:
         else:
             words = "no radius was found"
         lines.append(f"{names}: {words}")
+    wide = np.nonzero(~intervals.converged)[0]
+    if wide.size:
+        names = ", ".join(intervals.foot.fingers[index].name for index in wide)
+        lines.append(f"wider than {intervals.tolerance:g} of its length: {names}")
     return lines
 
 
