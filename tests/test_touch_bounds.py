@@ -7,7 +7,7 @@ import pytest
 from axes import axes_around, one_finger
 
 from zygopin.axis_chain import AxisChain
-from zygopin.touch_bounds import Goal, lower_bounds, upper_bounds
+from zygopin.touch_bounds import BoxViews, Goal, lower_bounds, upper_bounds
 
 FEET = [
     one_finger(1, 0.3, omega=3.0),
@@ -48,10 +48,14 @@ def test_no_control_in_a_box_goes_beyond_its_bound(foot, seed):
     chain = AxisChain.of(foot, 0, axes_around(foot, 20, seed))
     middle, half, which = boxes_of(chain, 1000, seed)
     found = samples(chain, middle, half, which)
-    low = lower_bounds(chain, middle, half, which, goal_of(chain, np.inf, seed))
+    low = lower_bounds(
+        BoxViews.of(chain, middle, half, which), goal_of(chain, np.inf, seed)
+    )
     assert np.all(found >= low.bound - 1e-12)
     for limit in (-10.0, 0.3):
-        high = upper_bounds(chain, middle, half, which, goal_of(chain, limit, seed))
+        high = upper_bounds(
+            BoxViews.of(chain, middle, half, which), goal_of(chain, limit, seed)
+        )
         assert np.all(found <= high.bound + 1e-12)
         assert np.all(high.bound >= limit)
     for bounds in (low, high):
@@ -67,7 +71,9 @@ def test_bounds_of_small_boxes_are_off_by_their_size_at_most(bounds):
     limit = np.inf if bounds is lower_bounds else -10.0
     for size in (1e-2, 1e-4, 1e-6):
         small = np.full_like(half, size)
-        found = bounds(chain, middle, small, which, goal_of(chain, limit, 0))
+        found = bounds(
+            BoxViews.of(chain, middle, small, which), goal_of(chain, limit, 0)
+        )
         off = np.abs(found.bound - found.value)
         assert off.max() < 4 * chain.omega * chain.count * size
 
@@ -81,7 +87,9 @@ def test_the_error_of_an_upper_bound_shrinks_with_the_square_of_the_box():
     def error(size):
         half = np.full((1, 5), size)
         ends = [chain.distance(middle + side * half, which) for side in (-1, 1)]
-        return upper_bounds(chain, middle, half, which, goal).bound - np.max(ends, 0)
+        return upper_bounds(
+            BoxViews.of(chain, middle, half, which), goal
+        ).bound - np.max(ends, 0)
 
     np.testing.assert_array_less(error(1e-3), 0.3 * error(2e-3) + 1e-12)
 
@@ -90,5 +98,7 @@ def test_phalanges_that_do_not_matter_give_no_reason_to_halve():
     foot = one_finger(3)
     chain = AxisChain.of(foot, 0, axes_around(foot, 4))
     half = np.full((3, 4), 0.5)
-    far = lower_bounds(chain, half, half, np.arange(4), goal_of(chain, -10.0, 0))
+    far = lower_bounds(
+        BoxViews.of(chain, half, half, np.arange(4)), goal_of(chain, -10.0, 0)
+    )
     assert np.all(far.effect == 0)

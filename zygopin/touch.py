@@ -28,7 +28,7 @@ MAX_BOXES = 20_000
 """Boxes of controls that are bounded for each end of an interval, unless said
 otherwise: fingers of five phalanges take a few hundred, seldom thousands."""
 
-AXES = 1024
+AXES = 256
 """Axes that are searched at once: they share what a call costs, and fit in memory."""
 
 

@@ -61,7 +61,7 @@ class Goal:
 
 
 @dataclass(frozen=True, eq=False)
-class _Views:
+class BoxViews:
     """Boxes of controls, seen along the directions of the nearest points at middles.
 
     Attributes:
@@ -81,7 +81,18 @@ class _Views:
     @classmethod
     def of(
         cls, chain: AxisChain, middle: Floats, half: Floats, which: Indices
-    ) -> _Views:
+    ) -> BoxViews:
+        """The views of some boxes.
+
+        Args:
+            chain: The chains.
+            middle: Middles of the boxes, shape (K, m).
+            half: Their half widths, shape (K, m).
+            which: Index of the axis of each, shape (m,).
+
+        Returns:
+            The views.
+        """
         contact = chain.contact(middle, which)
         spread = chain.omega * np.cumsum(half, axis=0)
         return cls(chain, which, half, contact, spread)
@@ -207,22 +218,17 @@ class _Views:
         return np.asarray(self.half * np.cumsum(moved[::-1], axis=0)[::-1])
 
 
-def lower_bounds(
-    chain: AxisChain, middle: Floats, half: Floats, which: Indices, goal: Goal
-) -> BoxBounds:
+def lower_bounds(views: BoxViews, goal: Goal) -> BoxBounds:
     """Lower bounds of D.
 
     Args:
-        chain: The chains.
-        middle: Middles of the boxes, shape (K, m).
-        half: Their half widths, shape (K, m).
-        which: Index of the axis of each, shape (m,).
+        views: The boxes.
         goal: What matters to each axis.
 
     Returns:
         The bounds.
     """
-    views = _Views.of(chain, middle, half, which)
+    chain, which = views.chain, views.which
     centres, grown = views.discs()
     _, points = nearest_on(centres[:-1], np.diff(centres, axis=0))
     least = np.maximum(np.abs(points) - grown[1:], chain.off_plane[:, which])
@@ -234,32 +240,27 @@ def lower_bounds(
     return BoxBounds(least.min(axis=0), gap.min(axis=0), effect)
 
 
-def upper_bounds(
-    chain: AxisChain, middle: Floats, half: Floats, which: Indices, goal: Goal
-) -> BoxBounds:
+def upper_bounds(views: BoxViews, goal: Goal) -> BoxBounds:
     """Upper bounds of D, or the limit where that is greater.
 
     Where several bones bound D, their bounds are combined: where one lets D grow,
     another may not.
 
     Args:
-        chain: The chains.
-        middle: Middles of the boxes, shape (K, m).
-        half: Their half widths, shape (K, m).
-        which: Index of the axis of each, shape (m,).
+        views: The boxes.
         goal: What matters to each axis.
 
     Returns:
         The bounds.
     """
-    views = _Views.of(chain, middle, half, which)
     value, slope, slack = _outer_pieces(views)
     reach = views.moved(slope) + slack
     first = np.argmin(value + reach, axis=0)
-    least, limit = _piece(value, slope, slack, half, first), goal.limit[which]
+    half, limit = views.half, goal.limit[views.which]
+    least = _piece(value, slope, slack, half, first)
     others = [
         _piece(value - limit, slope, slack, half, np.full_like(first, k))
-        for k in range(chain.count)
+        for k in range(len(half))
     ]
     bound = np.maximum(most_under(least, others, PASSES), limit)
     gap = views.contact.gap
@@ -276,7 +277,7 @@ def _piece(
     return Expansion(value[index, row], slope[index, :, row].T, slack[index, row], half)
 
 
-def _outer_pieces(views: _Views) -> tuple[Floats, Floats, Floats]:
+def _outer_pieces(views: BoxViews) -> tuple[Floats, Floats, Floats]:
     """First-order upper bounds of each bone's distance, less its skin's radius.
 
     Those of the point that is nearest at the middle: along its direction n, and off

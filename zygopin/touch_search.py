@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin.axis_chain import AxisChain, Floats, Indices
-from zygopin.touch_bounds import BoxBounds, Goal, lower_bounds, upper_bounds
+from zygopin.touch_bounds import BoxBounds, BoxViews, Goal, lower_bounds, upper_bounds
 from zygopin.touch_witness import first_witnesses, improved
 
 CACHED = 100_000
 """Numbers of the largest arrays that boxes are bounded with: they stay in the cache."""
 
-Bounder = Callable[[AxisChain, Floats, Floats, Indices, Goal], BoxBounds]
+Bounder = Callable[[BoxViews, Goal], BoxBounds]
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,7 +113,7 @@ class _Search:
 
     def run(self, max_boxes: int) -> Extreme:
         """Halve boxes until each axis is settled or has had its boxes."""
-        open_boxes, turn = self.whole(), 0
+        open_boxes, turn = self.pruned(self.whole(), max_boxes), 0
         while open_boxes.which.size:
             turn += 1
             open_boxes = self.pruned(self.halved(open_boxes), max_boxes)
@@ -124,10 +124,9 @@ class _Search:
         return Extreme(sign * bound, sign * self.best, self.controls, self.boxes)
 
     def whole(self) -> _Boxes:
-        """All controls, before each axis that is not settled yet."""
+        """All controls, before each axis."""
         half = np.full((self.chain.count, len(self.floor)), 0.5)
-        boxes = self.bounded(half.copy(), half, np.arange(len(self.floor)))
-        return self.pruned(boxes, 1)
+        return self.bounded(half.copy(), half, np.arange(len(self.floor)))
 
     def bounded(self, middle: Floats, half: Floats, which: Indices) -> _Boxes:
         """Boxes with their bounds; their middles may be better witnesses."""
@@ -138,7 +137,7 @@ class _Search:
         for start in range(0, max(len(which), 1), size):
             part = slice(start, start + size)
             cut = middle[:, part], half[:, part], which[part]
-            found = self.bounder(self.chain, *cut, goal)
+            found = self.bounder(BoxViews.of(self.chain, *cut), goal)
             parts.append(
                 (self.sign * found.bound, self.sign * found.value, found.effect)
             )
@@ -160,8 +159,7 @@ class _Search:
     def pruned(self, boxes: _Boxes, max_boxes: int) -> _Boxes:
         """Without boxes that cannot matter, nor those of axes that are settled."""
         goal = self.best - self.tolerance
-        spent = (self.boxes >= max_boxes) & (max_boxes > 1)
-        settled = (self.floor >= goal) | spent
+        settled = (self.floor >= goal) | (self.boxes >= max_boxes)
         closed = (boxes.cost >= goal[boxes.which]) | settled[boxes.which]
         np.minimum.at(self.left, boxes.which[closed], boxes.cost[closed])
         return boxes.take(~closed)
