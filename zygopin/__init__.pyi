@@ -107,6 +107,11 @@ from zygopin.toe_torque import joint_drive as joint_drive
 from zygopin.toe_torque import joint_torques as joint_torques
 from zygopin.toe_torque import tendon_drive as tendon_drive
 from zygopin.toe_torque import torque_matrix as torque_matrix
+from zygopin.touch import TouchIntervals as TouchIntervals
+from zygopin.touch import touch_intervals as touch_intervals
+from zygopin.touch_plots import plot_touch_bands as plot_touch_bands
+from zygopin.touching import TouchingControls as TouchingControls
+from zygopin.touching import touching_controls as touching_controls
 from zygopin.trajectory import StrikeEvent as StrikeEvent
 from zygopin.trajectory import StrikeTrajectory as StrikeTrajectory
 from zygopin.validation import ReachValidation as ReachValidation

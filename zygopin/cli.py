@@ -13,6 +13,7 @@ import click
 from zygopin.cli_branches import branches
 from zygopin.cli_reach import reach, validate
 from zygopin.cli_strike import strike
+from zygopin.cli_touch import touch
 from zygopin.command_group import OneLineErrors
 from zygopin.given_controls import read_controls
 from zygopin.options import (
@@ -53,6 +54,7 @@ main.add_command(reach)
 main.add_command(validate)
 main.add_command(strike)
 main.add_command(branches)
+main.add_command(touch)
 
 
 @main.command()

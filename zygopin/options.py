@@ -157,6 +157,35 @@ def foot_options_with(
     return decorated
 
 
+def axis_options(command: Command) -> Command:
+    """Add the options that turn a branch's axis.
+
+    Args:
+        command: The command's function; gets them as keyword arguments.
+
+    Returns:
+        The same function, decorated.
+    """
+    for option in (
+        click.option(
+            "--pitch-deg",
+            "pitch",
+            type=DEGREES,
+            default=0,
+            help="Rise to the left.",
+        ),
+        click.option(
+            "--yaw-deg",
+            "yaw",
+            type=DEGREES,
+            default=0,
+            help="Turn about z; 0: the axis is y, across the foot.",
+        ),
+    ):
+        command = option(command)
+    return command
+
+
 def branch_options(command: Command) -> Command:
     """Add the options that place a branch, but for its height.
 
@@ -166,41 +195,19 @@ def branch_options(command: Command) -> Command:
     Returns:
         The same function, decorated.
     """
-    length = click.option("--length-mm", "length", type=POSITIVE_MM, help="Or endless.")
-    radius = click.option(
-        "--radius-mm",
-        "radius",
-        type=POSITIVE_MM,
-        required=True,
-        help="Radius of the branch.",
-    )
-    return radius(axis_options(length(command)))
-
-
-def axis_options(command: Command) -> Command:
-    """Add the options that say how a branch runs.
-
-    Args:
-        command: The command's function; gets them as keyword arguments.
-
-    Returns:
-        The same function, decorated.
-    """
-    pitch = click.option(
-        "--pitch-deg",
-        "pitch",
-        type=DEGREES,
-        default=0,
-        help="Rise to the left.",
-    )
-    yaw = click.option(
-        "--yaw-deg",
-        "yaw",
-        type=DEGREES,
-        default=0,
-        help="Turn about z; 0: the axis is y, across the foot.",
-    )
-    return yaw(pitch(command))
+    for option in (
+        click.option("--length-mm", "length", type=POSITIVE_MM, help="Or endless."),
+        axis_options,
+        click.option(
+            "--radius-mm",
+            "radius",
+            type=POSITIVE_MM,
+            required=True,
+            help="Radius of the branch.",
+        ),
+    ):
+        command = option(command)
+    return command
 
 
 def hold_options(command: Command) -> Command:

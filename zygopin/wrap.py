@@ -12,6 +12,7 @@ from zygopin.branch import Branch
 from zygopin.clearance import Floats, branch_clearance, dot
 from zygopin.foot import Foot
 from zygopin.grasp import classify
+from zygopin.illinois import crossings
 
 Booleans = NDArray[np.bool_]
 Indices = NDArray[np.intp]
@@ -222,7 +223,7 @@ def _closed(
     ends: tuple[Floats, Floats],
     values: tuple[Floats, Floats],
 ) -> tuple[Floats, Booleans]:
-    """The next joint turned to contact, by the Illinois method inside brackets.
+    """The next joint turned to contact, inside brackets.
 
     Args:
         chain: The finger and the branches.
@@ -234,23 +235,12 @@ def _closed(
     Returns:
         Controls of the joint, shape (n,), and which of them have converged.
     """
-    result, found = ends[1].copy(), np.zeros(len(ends[0]), dtype=bool)
+
+    def clearance(active: Indices, control: Floats) -> Floats:
+        return _next_clearance(chain, old.take(active), rank, control)
+
     enough = CONVERGED * chain.size + chain.rounding[old.place]
-    (a, b), (at_a, at_b), active = ends, values, np.arange(len(ends[0]))
-    for _ in range(ITERATIONS):
-        new = b - at_b * (b - a) / (at_b - at_a)
-        value = _next_clearance(chain, old.take(active), rank, new)
-        done = np.abs(value) <= enough[active]
-        result[active[done]], found[active[done]] = new[done], True
-        # Halving the value of an end that stays is what makes the secant superlinear.
-        crossed = np.sign(value) != np.sign(at_b)
-        a, at_a = np.where(crossed, b, a), np.where(crossed, at_b, at_a / 2)
-        b, at_b = new, value
-        active = active[~done]
-        a, b, at_a, at_b = (x[~done] for x in (a, b, at_a, at_b))
-        if not len(active):
-            break
-    return result, found
+    return crossings(clearance, ends, values, enough, ITERATIONS)
 
 
 def _evaluated(
