@@ -1,0 +1,114 @@
+"""Whole-foot poses on the branches of a grid: the best of those that were tried."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from zygopin.branch_grid import BranchGrid
+from zygopin.foot import Foot
+from zygopin.grasp import Criteria, GraspReport, check_grasp
+
+Floats = NDArray[np.float64]
+Booleans = NDArray[np.bool_]
+Indices = NDArray[np.intp]
+
+MERITS = {"touching": 1, "feasible": 100, "grasping": 10_000}
+"""What a pose shows: opposable fingers touch, are tangent, and grasp. Each with
+nothing entering; each shows those before it. Tangent toes count one each."""
+
+
+@dataclass(eq=False)
+class Witnesses:
+    """The best pose so far for each branch of a grid.
+
+    Attributes:
+        foot: The foot.
+        grid: The branches.
+        criteria: What counts as contact and as a grasp.
+        merit: What each pose shows, see `MERITS`; 0 without one, shape (H, R).
+        controls: The poses, shape (H, R, P); NaN without one.
+        toes: Tangent fingers of the poses, shape (H, R).
+    """
+
+    foot: Foot
+    grid: BranchGrid
+    criteria: Criteria
+    merit: Indices = field(init=False)
+    controls: Floats = field(init=False)
+    toes: Indices = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.merit = np.zeros(self.grid.shape, dtype=np.intp)
+        self.toes = np.zeros(self.grid.shape, dtype=np.intp)
+        self.controls = np.full((*self.grid.shape, self.foot.phalanx_count), np.nan)
+
+    def offer(self, cells: tuple[Indices, ...], controls: Floats) -> None:
+        """Keep poses that enter nothing and show more than those there are.
+
+        Args:
+            cells: Rows and columns of the branches, shape (n,) each.
+            controls: A pose for each, shape (n, P).
+        """
+        if not len(cells[0]):
+            return
+        branches = self.grid.at(*cells)
+        report = check_grasp(self.foot, controls, branches, criteria=self.criteria)
+        toes = touched(self.foot, report.tangent)
+        merit = self._merit(report, toes.sum(axis=-1))
+        better = merit > self.merit[cells]
+        kept = tuple(axis[better] for axis in cells)
+        self.merit[kept] = merit[better]
+        self.toes[kept] = toes.sum(axis=-1)[better]
+        self.controls[kept] = controls[better]
+
+    def shows(self, verdict: str) -> Booleans:
+        """Branches whose pose shows a verdict.
+
+        Args:
+            verdict: A key of `MERITS`.
+
+        Returns:
+            A mask, shape (H, R).
+        """
+        return np.asarray(self.merit >= MERITS[verdict])
+
+    def _merit(self, report: GraspReport, toes: Indices) -> Indices:
+        """What poses show, shape (n,)."""
+        opposed = opposing(self.foot, touched(self.foot, report.touching))
+        merit = np.where(opposed, MERITS["touching"], 0)
+        merit = np.where(report.stable, MERITS["feasible"], merit)
+        merit = np.where(report.grasping, MERITS["grasping"], merit)
+        return np.where(report.feasible & (merit > 0), merit + toes, 0)
+
+
+def touched(foot: Foot, phalanges: Booleans) -> Booleans:
+    """Fingers of which some phalanx is marked.
+
+    Args:
+        foot: The foot.
+        phalanges: Marks, shape (…, P).
+
+    Returns:
+        Marks of fingers, shape (…, F).
+    """
+    parts = foot.finger_slices.values()
+    return np.stack([phalanges[..., part].any(axis=-1) for part in parts], axis=-1)
+
+
+def opposing(foot: Foot, fingers: Booleans) -> Booleans:
+    """Whether both fingers of some opposable pair are marked.
+
+    Args:
+        foot: The foot.
+        fingers: Marks, shape (…, F).
+
+    Returns:
+        Whether a pair is, shape (…).
+    """
+    found = np.zeros(fingers.shape[:-1], dtype=bool)
+    for i, j in foot.opposable_pairs:
+        found |= fingers[..., i] & fingers[..., j]
+    return found
