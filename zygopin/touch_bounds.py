@@ -68,7 +68,7 @@ class BoxViews:
         chain: The chains.
         which: Index of the axis of each box, shape (m,).
         half: Half widths, shape (K, m).
-        contact: Where the bones are nearest there.
+        contact: Where the bones are nearest at the middles.
         spread: Most that the angles θ differ from the middle's [rad], shape (K, m).
     """
 
