@@ -115,7 +115,8 @@ def farthest_wrap(
     """Bound on how far round a phalanx can touch without any entering the branch.
 
     The bones before the contact lie outside the disc of radius r + εₖ, so they are no
-    shorter than the way around it: the tangent from the base and the arc behind it.
+    shorter than the way to it: straight where the base sees it, and else the tangent
+    from the base and the arc behind it.
 
     Args:
         finger: The finger.
@@ -130,9 +131,13 @@ def farthest_wrap(
     skin = np.maximum(grid.radii + finger.radii[rank - 1] - tolerance, tolerance)
     reach = finger.lengths[:rank].sum() + tolerance
     tangent = np.sqrt(np.maximum(distance**2 - skin**2, 0.0))
-    arc = np.arccos(skin / np.maximum(distance, skin)) + (reach - tangent) / skin
-    bare = distance < grid.radii + finger.radii[0] - tolerance
-    return np.where((tangent > reach) | bare, -np.inf, arc)
+    behind = np.arccos(skin / np.maximum(distance, skin)) + (reach - tangent) / skin
+    scale = 2 * np.maximum(distance, skin) * skin
+    seen = np.arccos(np.clip((distance**2 + skin**2 - reach**2) / scale, -1.0, 1.0))
+    away = distance > reach + skin
+    entered = distance < grid.radii + finger.radii[0] - tolerance
+    most = np.where(tangent > reach, seen, behind)
+    return np.where(away | entered, -np.inf, most)
 
 
 def _out_of_reach(
