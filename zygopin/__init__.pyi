@@ -14,6 +14,10 @@ from zygopin.contacts import Friction as Friction
 from zygopin.contacts import branch_contacts as branch_contacts
 from zygopin.control_system import ControlSystem as ControlSystem
 from zygopin.description import to_urdf as to_urdf
+from zygopin.design import Design as Design
+from zygopin.design import design_foot as design_foot
+from zygopin.design_plots import plot_design as plot_design
+from zygopin.design_sweep import sweep as sweep
 from zygopin.engagement_plots import plot_engagement as plot_engagement
 from zygopin.engine import Engine as Engine
 from zygopin.engine import make_engine as make_engine
@@ -22,6 +26,7 @@ from zygopin.errors import FileError as FileError
 from zygopin.errors import MissingExtraError as MissingExtraError
 from zygopin.errors import ParameterError as ParameterError
 from zygopin.errors import UnknownNameError as UnknownNameError
+from zygopin.errors import WorkerError as WorkerError
 from zygopin.errors import ZygopinError as ZygopinError
 from zygopin.finger import Finger as Finger
 from zygopin.finger import zygodactyl_fingers as zygodactyl_fingers
@@ -30,6 +35,8 @@ from zygopin.foot import Foot as Foot
 from zygopin.grasp import Criteria as Criteria
 from zygopin.grasp import GraspReport as GraspReport
 from zygopin.grasp import check_grasp as check_grasp
+from zygopin.graspable import GraspableRadii as GraspableRadii
+from zygopin.graspable import graspable_radii as graspable_radii
 from zygopin.grip import Grip as Grip
 from zygopin.hausdorff import HausdorffDistance as HausdorffDistance
 from zygopin.hausdorff import directed_distance as directed_distance
@@ -79,6 +86,7 @@ from zygopin.remark import Counterexample as Counterexample
 from zygopin.remark import contact_kept as contact_kept
 from zygopin.remark import counterexample as counterexample
 from zygopin.remark_plots import plot_remark as plot_remark
+from zygopin.resting import resting_branch as resting_branch
 from zygopin.scene import export_scene as export_scene
 from zygopin.solid_clearance import obstacle_clearance as obstacle_clearance
 from zygopin.spread import SpreadStudy as SpreadStudy

@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from zygopin.cli_design import design
 from zygopin.cli_reach import reach, validate
 from zygopin.cli_strike import strike
+from zygopin.cli_sweep import sweep
 from zygopin.command_group import OneLineErrors
 from zygopin.given_controls import read_controls
 from zygopin.options import (
@@ -51,6 +53,8 @@ def main() -> None:
 main.add_command(reach)
 main.add_command(validate)
 main.add_command(strike)
+main.add_command(sweep)
+main.add_command(design)
 
 
 @main.command()
