@@ -61,6 +61,7 @@ LAYERS = (
     "perch",
     "resting",
     "graspable",
+    "worker_process",
     "design",
     "sweep_grid",
     "sweep_cell",

@@ -17,6 +17,7 @@ from zygopin import checks
 from zygopin.errors import ParameterError, UnknownNameError, WorkerError
 from zygopin.foot import Foot
 from zygopin.graspable import GraspableRadii, Interval, graspable_radii, radius_range
+from zygopin.worker_process import leave_with_parent
 
 BOUNDS: dict[str, Interval] = {
     "rho": (1.05, 1.8),
@@ -257,7 +258,9 @@ def _mapping(workers: int) -> Iterator[Callable[..., Any]]:
         yield map
         return
     try:
-        with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
+        with ProcessPoolExecutor(
+            workers, get_context("spawn"), initializer=leave_with_parent
+        ) as pool:
             yield pool.map
     except BrokenExecutor as error:
         remedy = "take fewer workers"

@@ -45,7 +45,14 @@ def plot_design(design: Design, path: Path | str) -> Path:
             left, width = start * unit.per_metre, (end - start) * unit.per_metre
             panel.barh(place, width, left=left, height=0.5, color=colour)
         words = f"{_parameters(perches.foot)};  {perches.share:.1%} of the range"
-        panel.text(low, place - 0.32, words, fontsize=8, color=INK, va="bottom")
+        panel.annotate(
+            words,
+            (low, place - 0.32),
+            xytext=(4, 0),
+            textcoords="offset points",
+            fontsize=8,
+            color=INK,
+        )
     panel.set_xscale("log")
     panel.set_xlim(low, high)
     panel.set_ylim(1.5, -0.75)

@@ -11,6 +11,7 @@ from typing import Any
 from zygopin import checks
 from zygopin.errors import MissingExtraError, UnknownNameError, WorkerError
 from zygopin.sweep_cell import Arrays, Chunk, plan_chunk
+from zygopin.worker_process import leave_with_parent
 
 try:
     from dask.base import compute
@@ -80,9 +81,18 @@ class Runner:
             return
         with _Finished(by_key, keep):
             try:
-                compute(*tasks, scheduler=self.scheduler, num_workers=self.workers)
+                compute(*tasks, scheduler=self.scheduler, **self._local_options)
             except BrokenExecutor as error:
                 raise WorkerError("a worker process ended early", AGAIN) from error
+
+    @property
+    def _local_options(self) -> dict[str, Any]:
+        """What Dask's local schedulers are told."""
+        # One chunk at a time: several would be handed over, and lost, together.
+        options: dict[str, Any] = {"num_workers": self.workers, "chunksize": 1}
+        if self.scheduler == "processes":
+            options["initializer"] = leave_with_parent
+        return options
 
     def _run_remotely(
         self, tasks: list[Any], chunks: Mapping[str, Chunk], keep: Keep
@@ -92,7 +102,7 @@ class Runner:
 
         with _client(self.scheduler) as client:
             futures = client.compute(tasks)
-            for future in as_completed(futures):
+            for future in as_completed(futures, loop=client.loop):
                 keep(chunks[future.key], future.result())
                 future.release()
 
