@@ -12,20 +12,24 @@ from zygopin import Foot, design_foot, graspable_radii, plot_design
 from zygopin.design import BOUNDS, SEED, merit, varied_foot
 from zygopin.design_output import design_document, design_rows, write_design
 from zygopin.errors import ParameterError, UnknownNameError
+from zygopin.graspable import GraspableRadii
 
-RANGE = (0.008, 0.12)
+RANGE = (0.008, 0.04)
 """Radii of which the small foot grasps a part."""
+
+
+FREE = {"omega": None, "scale": None}
 
 
 @pytest.fixture(scope="module")
 def design():
-    return design_foot(SMALL, *RANGE, bounds={"omega": None, "scale": None}, trials=32)
+    return design_foot(SMALL, *RANGE, bounds=FREE, trials=16)
 
 
 def test_a_better_foot_is_found(design):
     assert design.improved
     assert design.after.share > design.before.share + 0.05
-    assert design.trials == 32
+    assert design.trials == 16
     assert design.foot.name == "parrot_design"
 
 
@@ -45,18 +49,36 @@ def test_it_keeps_to_its_bounds_and_to_the_family(design):
 
 
 def test_other_processes_find_the_same(design):
-    bounds = {"omega": None, "scale": None}
-    again = design_foot(SMALL, *RANGE, bounds=bounds, trials=32, workers=2)
+    again = design_foot(SMALL, *RANGE, bounds=FREE, trials=16, workers=2)
     assert again.after == design.after
     assert again.before == design.before
 
 
-def test_a_foot_that_cannot_be_bettered_is_given_back():
-    same = (SMALL.omega, SMALL.omega + 1e-9)
-    found = design_foot(SMALL, 0.008, 0.012, bounds={"omega": same}, trials=16)
-    assert merit(found.after) >= merit(found.before)
-    if not found.improved:
-        assert found.foot == SMALL
+def peaked(omega, splay):
+    """Perches as if a foot grasped most with this ω and this splay."""
+
+    def perches(foot, low, high, **_):
+        miss = math.hypot(foot.omega - omega, foot.splay - splay)
+        top = low * (high / low) ** math.exp(-miss)
+        return GraspableRadii(foot, low, high, 1e-6, ((low, top),), 0.0, 1)
+
+    return perches
+
+
+def test_the_search_finds_a_known_best_foot(monkeypatch):
+    monkeypatch.setattr("zygopin.design.graspable_radii", peaked(1.1, 0.4))
+    found = design_foot(SMALL, *RANGE, bounds={"omega": None, "splay": None})
+    assert found.trials == 160
+    assert (found.foot.omega, found.foot.splay) == pytest.approx((1.1, 0.4), abs=0.05)
+    assert found.after.share == pytest.approx(1, abs=0.05)
+
+
+def test_a_foot_that_cannot_be_bettered_is_given_back(monkeypatch):
+    best = peaked(SMALL.omega, SMALL.splay)
+    monkeypatch.setattr("zygopin.design.graspable_radii", best)
+    found = design_foot(SMALL, *RANGE, trials=16)
+    assert not found.improved
+    assert found.foot == SMALL
 
 
 def test_wrap_decides_only_between_equals():
@@ -74,7 +96,7 @@ def test_the_skin_goes_with_the_scale():
 def test_the_foot_is_written_as_it_is_read(design, tmp_path):
     path = write_design(design, tmp_path / "foot.yaml")
     assert Foot.load(path) == design.foot
-    assert "Designed from parrot for perches of radius 8 to 120 mm" in path.read_text()
+    assert "Designed from parrot for perches of radius 8 to 40 mm" in path.read_text()
 
 
 def test_tables_and_documents_hold_both_feet(design):
