@@ -21,6 +21,14 @@ RANGE = (0.008, 0.04)
 FREE = {"omega": None, "scale": None}
 
 
+@pytest.fixture(scope="module", autouse=True)
+def one_finalist():
+    """The best foot of each search alone is looked at exactly."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("zygopin.design.FINALISTS", 1)
+        yield
+
+
 @pytest.fixture(scope="module")
 def design():
     return design_foot(SMALL, *RANGE, bounds=FREE, trials=16)

@@ -28,7 +28,7 @@ BOUNDS: dict[str, Interval] = {
 """What a design may vary, and between what; scale: over the given foot's own."""
 
 TRIALS = 160
-"""Feet that are tried: about a minute on one core for a foot of 14 phalanges."""
+"""Feet that are tried: one to three minutes of one core for 14 phalanges."""
 
 POPULATION = 16
 """Feet of a generation: four for each parameter."""
