@@ -6,7 +6,7 @@ import hashlib
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property, lru_cache
 from importlib.metadata import version
 from typing import Any, NamedTuple
 
@@ -101,9 +101,9 @@ class Chunk:
         """SHA-256 of everything that determines the results."""
         return digest(
             {
-                "version": version("zygopin"),
+                "version": package_version(),
                 "results": list(RESULTS),
-                "foot": self.foot.to_mapping(),
+                "foot": foot_text(self.foot),
                 "cells": [dict(self.fixed) | dict(cell) for cell in self.cells],
                 "width": self.width,
                 "levels": self.levels,
@@ -117,6 +117,18 @@ class Chunk:
         shapes: dict[str, tuple[int, ...]] = dict.fromkeys(RESULTS, (count,))
         shapes["controls"] = (count, len(self.foot.fingers), self.width)
         return shapes
+
+
+@cache
+def package_version() -> str:
+    """This package's version; looked up once, for every chunk has it."""
+    return version("zygopin")
+
+
+@lru_cache(maxsize=16)
+def foot_text(foot: Foot) -> str:
+    """A foot as JSON, kept, for every chunk of a sweep has the same."""
+    return json.dumps(foot.to_mapping(), sort_keys=True)
 
 
 def digest(document: Mapping[str, Any]) -> str:

@@ -5,15 +5,22 @@ Xarray comes from here alone, so that its absence is told once.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
-from importlib.metadata import version
 from typing import Any
 
 import numpy as np
 
 from zygopin.errors import MissingExtraError
-from zygopin.sweep_cell import REASONS, RESULTS, VERDICTS, Arrays, Chunk, digest
+from zygopin.sweep_cell import (
+    REASONS,
+    RESULTS,
+    VERDICTS,
+    Arrays,
+    Chunk,
+    digest,
+    foot_text,
+    package_version,
+)
 from zygopin.sweep_grid import FOOT_QUANTITIES, QUANTITIES, SweepGrid
 
 try:
@@ -116,11 +123,11 @@ def _attributes(grid: SweepGrid, chunks: Sequence[Chunk]) -> dict[str, Any]:
     fixed = {name: value for name, value in own.items() if name not in grid.axes}
     return {
         "title": f"perches of {foot.name} over a grid of feet and branches",
-        "source": f"zygopin {version('zygopin')}",
-        "zygopin_version": version("zygopin"),
+        "source": f"zygopin {package_version()}",
+        "zygopin_version": package_version(),
         "unit_system": "SI: lengths in m, angles in rad",
         **(fixed | dict(grid.fixed)),
         "levels": chunks[0].levels,
-        "foot": json.dumps(foot.to_mapping(), sort_keys=True),
+        "foot": foot_text(foot),
         "digest": question_digest(chunks),
     }
