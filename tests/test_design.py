@@ -9,7 +9,7 @@ from PIL import Image
 
 from tests.test_graspable import SMALL
 from zygopin import Foot, design_foot, graspable_radii, plot_design
-from zygopin.design import BOUNDS, SEED, merit, varied_foot
+from zygopin.design import BOUNDS, Design, merit, varied_foot
 from zygopin.design_output import design_document, design_rows, write_design
 from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.graspable import GraspableRadii
@@ -19,6 +19,15 @@ RANGE = (0.008, 0.04)
 
 
 FREE = {"omega": None, "scale": None}
+
+BEFORE, AFTER = (0x22, 0x27, 0x2E), (0xC0, 0x39, 0x2B)
+"""Colours of the bars."""
+
+
+def colours(path):
+    """How many pixels of an image have each colour."""
+    counted = Image.open(path).convert("RGB").getcolors(1 << 20)
+    return {colour: count for count, colour in counted}
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -119,14 +128,22 @@ def test_tables_and_documents_hold_both_feet(design):
     assert document["after"]["intervals"] == [list(x) for x in design.after.intervals]
 
 
+def test_a_foot_that_grew_to_metres_has_its_bar(tmp_path):
+    grown = SMALL.replace(scale=SMALL.scale * 60)  # figures of it alone are in metres
+    made = [
+        GraspableRadii(foot, *RANGE, 1e-6, (RANGE,), 0.0, 1) for foot in (SMALL, grown)
+    ]
+    counts = colours(plot_design(Design(*made, {}, 16), tmp_path / "a.png"))
+    shares = [counts[colour] for colour in (BEFORE, AFTER)]
+    assert shares[1] == pytest.approx(shares[0], rel=0.05)
+
+
 def test_the_figure_shows_the_bars_and_is_always_the_same(design, tmp_path):
     paths = [plot_design(design, tmp_path / name) for name in ("a.png", "b.png")]
     first, second = (path.read_bytes() for path in paths)
     assert first == second
-    colours = Image.open(paths[0]).convert("RGB").getcolors(1 << 20)
-    counts = {colour: count for count, colour in colours}
-    assert counts[(0xC0, 0x39, 0x2B)] > 5000  # after
-    assert counts[(0x22, 0x27, 0x2E)] > 5000  # before
+    counts = colours(paths[0])
+    assert counts[AFTER] > counts[BEFORE] > 5000
 
 
 @pytest.mark.parametrize(
@@ -147,7 +164,6 @@ def test_bad_input_is_named(options, error, words):
 
 
 def test_the_default_bounds_are_of_feet():
-    assert int(SEED) == SEED
     for name, ends in BOUNDS.items():
         for end in ends:
             unit = SMALL.scale if name == "scale" else 1.0

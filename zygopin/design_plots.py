@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from zygopin.design import Design
-from zygopin.figures import ACCENT, INK, PALE, new_figure, save_figure, unit_of
+from zygopin.figures import ACCENT, INK, Axes, Unit, new_figure, save_figure, unit_of
 from zygopin.foot import Foot
 from zygopin.graspable import GraspableRadii
 
@@ -16,6 +16,11 @@ TICKS = (1, 1.5, 2, 3, 4, 5, 6, 8)
 """Leading digits of the ticks on the axis of radii."""
 
 MOST_TICKS = 12
+
+BAR = 0.5
+"""Height of a bar, over the distance from one to the next."""
+
+RANGE_COLOUR = "#e4e6ea"
 
 
 def plot_design(design: Design, path: Path | str) -> Path:
@@ -33,37 +38,44 @@ def plot_design(design: Design, path: Path | str) -> Path:
         MissingExtraError: Matplotlib is not installed.
     """
     unit = unit_of(design.before.foot)
-    low, high = (
-        end * unit.per_metre for end in (design.before.low, design.before.high)
-    )
+    ends = (design.before.low, design.before.high)
+    low, high = (end * unit.per_metre for end in ends)
     figure = new_figure(8.0, 2.9)
     panel = figure.subplots()
-    rows = {"before": (design.before, INK), "after": (design.after, ACCENT)}
-    for place, (perches, colour) in enumerate(rows.values()):
-        panel.barh(place, high - low, left=low, height=0.5, color=PALE, alpha=0.5)
-        for start, end in perches.intervals:
-            left, width = start * unit.per_metre, (end - start) * unit.per_metre
-            panel.barh(place, width, left=left, height=0.5, color=colour)
-        words = f"{_parameters(perches.foot)};  {perches.share:.1%} of the range"
-        panel.annotate(
-            words,
-            (low, place - 0.32),
-            xytext=(4, 0),
-            textcoords="offset points",
-            fontsize=8,
-            color=INK,
-        )
+    _draw_bars(panel, 0, design.before, INK, unit)
+    _draw_bars(panel, 1, design.after, ACCENT, unit)
     panel.set_xscale("log")
     panel.set_xlim(low, high)
     panel.set_ylim(1.5, -0.75)
     ticks = _ticks(low, high)
     panel.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     panel.set_xticks([], minor=True)
-    panel.set_yticks(range(len(rows)), list(rows))
+    panel.set_yticks([0, 1], ["before", "after"])
     panel.tick_params(labelsize=9)
     panel.set_xlabel(f"radius of the perch [{unit.name}]", fontsize=9)
     figure.suptitle(_title(design.before, design.after), fontsize=11)
     return save_figure(figure, path)
+
+
+def _draw_bars(
+    panel: Axes, place: int, perches: GraspableRadii, colour: str, unit: Unit
+) -> None:
+    """The asked range of radii, the graspable ones in it, and the foot's parameters."""
+    asked = (perches.low, perches.high)
+    for (low, high), shade in (
+        (asked, RANGE_COLOUR),
+        *((ends, colour) for ends in perches.intervals),
+    ):
+        width = (high - low) * unit.per_metre
+        panel.barh(place, width, left=low * unit.per_metre, height=BAR, color=shade)
+    panel.annotate(
+        f"{_parameters(perches.foot)};  {perches.share:.1%} of the range",
+        (perches.low * unit.per_metre, place - 0.32),
+        xytext=(4, 0),
+        textcoords="offset points",
+        fontsize=8,
+        color=INK,
+    )
 
 
 def _title(before: GraspableRadii, after: GraspableRadii) -> str:
