@@ -1,8 +1,11 @@
 """Types of the names that `zygopin` loads lazily."""
 
+from zygopin.atlas import Atlas as Atlas
+from zygopin.atlas import branch_atlas as branch_atlas
 from zygopin.attack import Attack as Attack
 from zygopin.branch import Branch as Branch
 from zygopin.branch import branch_axis as branch_axis
+from zygopin.branch_grid import BranchGrid as BranchGrid
 from zygopin.branch_search import count_systems as count_systems
 from zygopin.branch_search import iter_stable_branches as iter_stable_branches
 from zygopin.branch_search import stable_branches as stable_branches
@@ -19,6 +22,10 @@ from zygopin.contacts import branch_contacts as branch_contacts
 from zygopin.control_system import ControlSystem as ControlSystem
 from zygopin.crossings import SystemCounts as SystemCounts
 from zygopin.description import to_urdf as to_urdf
+from zygopin.design import Design as Design
+from zygopin.design import design_foot as design_foot
+from zygopin.design_plots import plot_design as plot_design
+from zygopin.design_sweep import sweep as sweep
 from zygopin.engagement_plots import plot_engagement as plot_engagement
 from zygopin.engine import Engine as Engine
 from zygopin.engine import make_engine as make_engine
@@ -27,6 +34,7 @@ from zygopin.errors import FileError as FileError
 from zygopin.errors import MissingExtraError as MissingExtraError
 from zygopin.errors import ParameterError as ParameterError
 from zygopin.errors import UnknownNameError as UnknownNameError
+from zygopin.errors import WorkerError as WorkerError
 from zygopin.errors import ZygopinError as ZygopinError
 from zygopin.finger import Finger as Finger
 from zygopin.finger import zygodactyl_fingers as zygodactyl_fingers
@@ -35,6 +43,8 @@ from zygopin.foot import Foot as Foot
 from zygopin.grasp import Criteria as Criteria
 from zygopin.grasp import GraspReport as GraspReport
 from zygopin.grasp import check_grasp as check_grasp
+from zygopin.graspable import GraspableRadii as GraspableRadii
+from zygopin.graspable import graspable_radii as graspable_radii
 from zygopin.grip import Grip as Grip
 from zygopin.hausdorff import HausdorffDistance as HausdorffDistance
 from zygopin.hausdorff import directed_distance as directed_distance
@@ -85,6 +95,7 @@ from zygopin.remark import Counterexample as Counterexample
 from zygopin.remark import contact_kept as contact_kept
 from zygopin.remark import counterexample as counterexample
 from zygopin.remark_plots import plot_remark as plot_remark
+from zygopin.rest import resting_branch as resting_branch
 from zygopin.resting import RestingRadii as RestingRadii
 from zygopin.resting import resting_branches as resting_branches
 from zygopin.resting import resting_radii as resting_radii
@@ -103,6 +114,7 @@ from zygopin.strike_plots import plot_strike as plot_strike
 from zygopin.strike_scene import export_strike as export_strike
 from zygopin.tendon import Contact as Contact
 from zygopin.tendon import TendonFoot as TendonFoot
+from zygopin.toe_contacts import Answer as Answer
 from zygopin.toe_torque import joint_drive as joint_drive
 from zygopin.toe_torque import joint_torques as joint_torques
 from zygopin.toe_torque import tendon_drive as tendon_drive

@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from zygopin.cli_branches import branches
+from zygopin.cli_design import design
 from zygopin.cli_reach import reach, validate
 from zygopin.cli_strike import strike
+from zygopin.cli_sweep import sweep
 from zygopin.cli_touch import touch
 from zygopin.command_group import OneLineErrors
 from zygopin.given_controls import read_controls
@@ -55,6 +57,8 @@ main.add_command(validate)
 main.add_command(strike)
 main.add_command(branches)
 main.add_command(touch)
+main.add_command(sweep)
+main.add_command(design)
 
 
 @main.command()

@@ -115,6 +115,20 @@ class MissingExtraError(ZygopinError, ImportError):
         self.extra = extra
 
 
+class WorkerError(ZygopinError, RuntimeError):
+    """Processes or machines that were to share some work, and did not.
+
+    Attributes:
+        problem: What went wrong.
+        remedy: What to do about it.
+    """
+
+    def __init__(self, problem: str, remedy: str) -> None:
+        super().__init__(f"{_one_line(problem)}: {remedy}")
+        self.problem = problem
+        self.remedy = remedy
+
+
 def _one_line(text: str) -> str:
     """Text with its white space folded, so that a message stays on one line."""
     return " ".join(text.split())

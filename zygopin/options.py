@@ -128,7 +128,6 @@ def foot_options_with(
     Returns:
         What decorates the command's function.
     """
-    file = click.Path(path_type=Path)
 
     def decorated(command: Command) -> Command:
         for option in (
@@ -139,22 +138,38 @@ def foot_options_with(
             click.option("--splay-deg", "splay", type=DEGREES, help="Splay angle Ω."),
             omega,
             click.option("--rho", type=float, help="Scaling factor ρ > 1."),
-            click.option(
-                "--foot",
-                "foot_file",
-                type=file,
-                help="A foot of your own, YAML.",
-            ),
-            click.option(
-                "--preset",
-                metavar="NAME",
-                help="A shipped foot; see `zygopin presets`.  [default: parrot]",
-            ),
+            preset_options,
         ):
             command = option(command)
         return command
 
     return decorated
+
+
+def preset_options(command: Command) -> Command:
+    """Add the options that choose a foot as it is.
+
+    Args:
+        command: The command's function; gets them as keyword arguments.
+
+    Returns:
+        The same function, decorated.
+    """
+    for option in (
+        click.option(
+            "--foot",
+            "foot_file",
+            type=click.Path(path_type=Path),
+            help="A foot of your own, YAML.",
+        ),
+        click.option(
+            "--preset",
+            metavar="NAME",
+            help="A shipped foot; see `zygopin presets`.  [default: parrot]",
+        ),
+    ):
+        command = option(command)
+    return command
 
 
 def axis_options(command: Command) -> Command:

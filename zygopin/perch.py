@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from typing import Literal
 
 import numpy as np
@@ -83,14 +83,14 @@ class PerchPlan:
         report: The exact engine's verdicts on these controls.
         wrap: How far around the branch each finger's last tangent phalanx lies
             from the base's nearest line [rad], shape (F,); −∞ without one.
-        reason: Why this is no feasible grasp, in one line; None where it is one.
+        searched: Whether the height was searched for.
     """
 
     controls: Floats
     branch: Branch
     report: GraspReport
     wrap: Floats
-    reason: str | None
+    searched: bool
 
     def __post_init__(self) -> None:
         self.wrap.setflags(write=False)
@@ -98,7 +98,15 @@ class PerchPlan:
     @property
     def grasping(self) -> bool:
         """Whether the plan is a grasp that enters neither branch nor finger."""
-        return self.reason is None
+        return why_not(self.report) is None
+
+    @cached_property
+    def reason(self) -> str | None:
+        """Why this is no feasible grasp, in one line; None where it is one.
+
+        Looked for when it is first asked for: a remedy takes many more plans.
+        """
+        return _reason(self.report, searched=self.searched)
 
 
 def plan_perch(
@@ -148,8 +156,7 @@ def plan_perch(
         branch = _best_height(foot, branch)
     value = partial(_hold, prefer, strength or Strength(1.0, Friction()))
     report, wrap = _planned(foot, branch, levels, value, SHORTLIST[prefer])
-    reason = _reason(report, searched=find_height)
-    return PerchPlan(report.controls, branch, report, wrap, reason)
+    return PerchPlan(report.controls, branch, report, wrap, find_height)
 
 
 def _planned(

@@ -9,7 +9,7 @@ from typing import Any
 import yaml
 
 from zygopin.errors import FileError, UnknownNameError
-from zygopin.files import read_text
+from zygopin.files import read_text, write_text
 from zygopin.paths import PRESETS_PATH
 
 
@@ -62,3 +62,19 @@ def read_parameters(path: Path | str) -> dict[str, Any]:
         )
         raise FileError(path, f"holds {type(content).__name__}, not a mapping", remedy)
     return dict(content)
+
+
+def write_parameters(path: Path | str, mapping: Mapping[str, Any]) -> Path:
+    """Write foot parameters as a YAML file that `read_parameters` reads back.
+
+    Args:
+        path: The file.
+        mapping: The parameters, as `Foot.to_mapping` gives them.
+
+    Returns:
+        The path.
+
+    Raises:
+        FileError: The file cannot be written.
+    """
+    return write_text(path, yaml.safe_dump(dict(mapping), sort_keys=False))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypeVar
 
 import click
@@ -11,6 +12,7 @@ if TYPE_CHECKING:  # loaded where it is used, so that --help is quick
     from rich.status import Status
 
 Item = TypeVar("Item")
+Step = Callable[[], None]
 
 NARROWEST = 72
 """Columns that a table takes at the least: its numbers stay whole."""
@@ -81,3 +83,31 @@ def progress(
         yield from items
         return
     yield from track(items, what, total, console=console, transient=True)
+
+
+@contextmanager
+def steps(what: str, *, quiet: bool) -> Iterator[Callable[[int, int], Step]]:
+    """A bar on stderr for work that is done in any order, on a terminal only.
+
+    Args:
+        what: What runs.
+        quiet: Whether to show nothing at all.
+
+    Yields:
+        What starts the bar, given the number of steps and of those done before; it
+        returns what is to be called for each further one.
+    """
+    from rich.console import Console
+    from rich.progress import Progress
+
+    console = Console(stderr=True, quiet=quiet)
+    if quiet or not console.is_terminal:
+        yield lambda _total, _done: lambda: None
+        return
+    with Progress(console=console, transient=True) as bar:
+
+        def begun(total: int, done: int) -> Step:
+            task = bar.add_task(what, total=total, completed=done)
+            return lambda: bar.advance(task)
+
+        yield begun

@@ -1,0 +1,143 @@
+"""A sweep's dataset as a file: netCDF or Zarr, by its suffix, whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from importlib.util import find_spec
+from pathlib import Path
+
+from zygopin.errors import FileError, MissingExtraError
+from zygopin.sweep_dataset import Dataset, xarray
+
+NEEDED = {".nc": "h5netcdf", ".zarr": "zarr"}
+"""What writes each kind of file, by suffix; xarray's names of engines too."""
+
+ZARR_FORMAT = 2
+"""Zarr's format: its third version has no settled type for text."""
+
+
+def check_output(path: Path | str) -> Path:
+    """An output is of a kind that can be written, and replaces nothing else.
+
+    Args:
+        path: The file, or the Zarr folder.
+
+    Returns:
+        The path.
+
+    Raises:
+        FileError: Another suffix, or a folder that holds no Zarr dataset.
+        MissingExtraError: What writes such a file is not installed.
+    """
+    target = Path(path)
+    if target.suffix not in NEEDED:
+        remedy = "end its name with .nc for netCDF or .zarr for Zarr"
+        raise FileError(path, "is of no kind that a sweep is saved as", remedy)
+    if find_spec(NEEDED[target.suffix]) is None:
+        raise MissingExtraError(NEEDED[target.suffix], "sweep")
+    wanted = _is_zarr(target) if target.suffix == ".zarr" else target.is_file()
+    if target.exists() and not wanted:
+        problem = f"cannot be replaced: it is no {target.suffix} dataset"
+        raise FileError(path, problem, "name another file")
+    return target
+
+
+def save_dataset(dataset: Dataset, path: Path | str) -> Path:
+    """Write a dataset beside its place, then rename it into it.
+
+    Args:
+        dataset: A sweep's dataset.
+        path: The file, or the Zarr folder; missing parent folders are created.
+
+    Returns:
+        The path.
+
+    Raises:
+        FileError: It cannot be written.
+        MissingExtraError: What writes such a file is not installed.
+    """
+    target = check_output(path)
+    part = target.with_name(f".{os.urandom(8).hex()}{target.suffix}")
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        _write(dataset, part)
+        if target.is_dir():  # a folder cannot be renamed onto another
+            old = part.with_suffix(".old")
+            target.rename(old)
+            part.rename(target)
+            shutil.rmtree(old)
+        else:
+            part.replace(target)
+    except OSError as error:
+        remedy = "name a file in a folder that can be written"
+        problem = f"cannot be written: {error.strerror or error}"
+        raise FileError(path, problem, remedy) from error
+    finally:
+        _discard(part)
+    return Path(path)
+
+
+def saved_dataset(path: Path | str, digest: str) -> Dataset | None:
+    """A finished sweep, if it answers the same question.
+
+    Args:
+        path: The file, or the Zarr folder.
+        digest: The digest that its attributes must have.
+
+    Returns:
+        The dataset, in memory; None where there is no such file.
+    """
+    target = Path(path)
+    if not target.exists():
+        return None
+    try:
+        dataset = load_dataset(target)
+    except FileError:
+        return None
+    return dataset if dataset.attrs.get("digest") == digest else None
+
+
+def load_dataset(path: Path | str) -> Dataset:
+    """Read a sweep's dataset into memory.
+
+    Args:
+        path: The file, or the Zarr folder.
+
+    Returns:
+        The dataset.
+
+    Raises:
+        FileError: It cannot be read.
+    """
+    target = Path(path)
+    try:
+        engine = NEEDED[target.suffix]
+        options = {"consolidated": True} if engine == "zarr" else {}
+        with xarray.open_dataset(target, engine=engine, **options) as dataset:  # type: ignore[arg-type]
+            loaded: Dataset = dataset.load()
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        remedy = "name a file that `sweep` wrote"
+        raise FileError(path, f"is no dataset: {error}", remedy) from error
+    return loaded
+
+
+def _write(dataset: Dataset, path: Path) -> None:
+    """Write a dataset to a new place."""
+    if path.suffix == ".nc":
+        dataset.to_netcdf(path, engine="h5netcdf")
+    else:
+        dataset.to_zarr(path, mode="w", zarr_format=ZARR_FORMAT, consolidated=True)
+
+
+def _is_zarr(path: Path) -> bool:
+    """Whether a folder holds a Zarr dataset."""
+    return any((path / name).is_file() for name in (".zgroup", "zarr.json"))
+
+
+def _discard(path: Path) -> None:
+    """Remove what was left half written."""
+    if path.is_dir():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        path.unlink(missing_ok=True)
