@@ -38,11 +38,14 @@ class Atlas:
             −2 for a branch that holds the foot's base.
         stable: Two opposable fingers are tangent, whatever enters (the source's).
         feasible: The same, and nothing enters.
-        grasping: The same, and contacts are a quarter turn apart: a perch.
+        grasping: The same with the toes' palms, their contacts a quarter turn apart: a
+            perch. Contacts of a toe's back, which the source does not exclude, make no
+            grasp here.
         toes: Fewest and most fingers that can be tangent at once with nothing
             entering: what a pose shows, and what is not disproved, shape (H, R, 2).
-        wrap: The largest wrap angle: that of a pose, and an upper bound [rad], shape
-            (H, R, 2); NaN where no finger can be tangent with nothing entering.
+        wrap: The largest wrap angle of a finger by itself: that of a pose of the palm,
+            and an upper bound [rad], shape (H, R, 2); NaN without a pose, and without
+            a bound where no finger can be tangent with nothing entering.
         controls: The pose that shows most, shape (H, R, P); NaN without one.
         stable_controls: A pose that is stable, where none is also feasible; else NaN.
     """

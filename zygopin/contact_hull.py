@@ -1,9 +1,9 @@
 """Where a phalanx can touch at all: bounds on its first junction.
 
-A contact at wrap ψ, s along phalanx k, places the junction before it: xₖ₋₁. The phalanges
-up to there have pitches that only grow, by ω at most: xₖ₋₁ lies in the hull of what each
-of them can do. And where they stay outside the branch, they are no shorter than the way
-around it. Two numbers are searched in place of k.
+A contact at wrap ψ, s along phalanx k, places the junction before it: xₖ₋₁. The
+phalanges up to there have pitches that only grow, by ω at most: xₖ₋₁ lies in the hull
+of what each of them can do. And where they stay outside the branch, they are no shorter
+than the way around it. Two numbers are searched in place of k.
 """
 
 from __future__ import annotations
@@ -39,7 +39,8 @@ class Circles:
     Attributes:
         centre: Their centres [m], shape (n,).
         radius: Their radii [m], shape (n,).
-        beyond: Only contacts wrapped farther than this count [rad], shape (n,).
+        beyond: Only contacts count whose wrap, times the criterion's sense, is more
+            than this [rad], shape (n,).
     """
 
     centre: Complexes
@@ -55,10 +56,14 @@ class Criterion:
         tolerance: Clearance up to which it is tangent, and down to which others are
             outside the branch [m].
         solid: Whether the phalanges before it stay out of the branch.
+        palmar: Whether only the toe's palm counts, the side to which it flexes.
+        sense: 1 to ask for contacts that are wrapped far, −1 for those wrapped back.
     """
 
     tolerance: float
     solid: bool = True
+    palmar: bool = False
+    sense: int = 1
 
 
 def contact_possible(
@@ -163,7 +168,7 @@ class _Search:
         )
         wrap = np.stack([BEHIND + 2 * half * middle, np.full(len(branch), half)])
         ranges = _Ranges(branch, turn, wrap, np.full((2, len(branch)), 0.5))
-        return ranges.take(wrap[0] + half > self.circles.beyond[branch])
+        return ranges.take(self._counts(ranges))
 
     def _left(self, ranges: _Ranges) -> tuple[Booleans, Floats]:
         """Which ranges may hold a contact, and how far each moves the junction [m]."""
@@ -184,9 +189,12 @@ class _Search:
         left = self._within(junction, margin, pitch, spread)
         if self.criterion.solid:
             left &= self._around(junction, margin, centre, radius)
-        return left & (
-            ranges.wrap.sum(axis=0) > self.circles.beyond[ranges.branch]
-        ), moves
+        return left & self._counts(ranges), moves
+
+    def _counts(self, ranges: _Ranges) -> Booleans:
+        """Which ranges hold contacts that are wrapped as is asked for."""
+        most = self.criterion.sense * ranges.wrap[0] + ranges.wrap[1]
+        return np.asarray(most > self.circles.beyond[ranges.branch])
 
     def _within(
         self, junction: Complexes, margin: Floats, pitch: Floats, spread: Floats

@@ -282,8 +282,8 @@ def _verdicts(
     contacts = classify(near, tolerance)
     lines = bones[..., 1, :] - bones[..., 0, :]
     lines = lines / np.linalg.norm(lines, axis=-1, keepdims=True)
-    section = _least_product(foot, near.normal, contacts.tangent)
-    base_to_tip = _least_product(foot, lines, contacts.tangent)
+    section = least_product(foot, near.normal, contacts.tangent)
+    base_to_tip = least_product(foot, lines, contacts.tangent)
     decisive = section if criteria.reading == "section" else base_to_tip
     return {
         "stable": np.isfinite(decisive),
@@ -335,8 +335,17 @@ def _finger_clearance(foot: Foot, bones: Floats, engine: Engine) -> Floats:
     return np.asarray(engine.skin_distance(bones, foot.radii, pairs).min(axis=-1))
 
 
-def _least_product(foot: Foot, vectors: Floats, tangent: Booleans) -> Floats:
-    """Least scalar product over tangent phalanges of opposable fingers, else NaN."""
+def least_product(foot: Foot, vectors: Floats, tangent: Booleans) -> Floats:
+    """Least scalar product over tangent phalanges of opposable fingers.
+
+    Args:
+        foot: The foot.
+        vectors: A vector for each phalanx, shape (…, P, 3).
+        tangent: Which phalanges are tangent, shape (…, P).
+
+    Returns:
+        The least products, shape (…); NaN without such a pair.
+    """
     # All products at once: cheaper than to gather the vectors of each pair first.
     finger = foot.finger_of_phalanx
     opposed = np.zeros((foot.phalanx_count,) * 2, dtype=bool)

@@ -19,9 +19,9 @@ from zygopin.foot import Foot
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
-BEHIND = -math.pi / 4
-"""Contacts up to this far behind the base's nearest line count as wrapped back,
-not as wrapped nearly all the way round."""
+BEHIND = -math.pi / 2
+"""Contacts up to this far behind the base's nearest line count as wrapped back, not as
+wrapped nearly all the way round: farther back, the base does not see the branch."""
 
 EDGEWISE = 1e-6
 """Least stretch of a finger's plane: below, it is seen edge on, as a line."""

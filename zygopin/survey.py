@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from zygopin.branch_grid import BranchGrid
+from zygopin.contact_hull import Criterion
 from zygopin.foot import Foot
 from zygopin.grasp import Criteria
 from zygopin.projection import BEHIND, Floats
-from zygopin.tangent_proof import Criterion, farthest_wrap
-from zygopin.toe_contacts import Answer, Booleans, Codes, ToeSearch
+from zygopin.tangent_proof import farthest_wrap
+from zygopin.toe_contacts import Answer, Booleans, Codes, ToePoses, ToeSearch
 from zygopin.touch import TouchIntervals, touch_intervals
 from zygopin.touching import touching_controls
 from zygopin.witnesses import Witnesses, opposing
 
-AIMS = (1.2, 0.8, 1.7, 0.3)
+AIMS = (1.2, 0.8, 1.7, 0.3, 2.4)
 """Angles to which toes are wrapped in turn [rad] where toes that are wrapped as far
 as can be run into each other."""
 
@@ -117,18 +120,21 @@ class Survey:
         return codes.astype(np.int8)
 
     def _pairs(self, fingers: Booleans) -> Booleans:
-        """Whether both fingers of some opposable pair are marked, (F, H, R) to (H, R)."""
+        """Whether both of some opposable fingers are marked, (F, H, R) to (H, R)."""
         return opposing(self.foot, np.moveaxis(fingers, 0, -1))
 
     def _join_tangent(self) -> None:
         """Poses of the foot from those of its toes, until no more is in sight."""
-        wrap, controls = self.toes.wrap, self.toes.controls
-        self._try(wrap, controls, self._pairs(np.isfinite(wrap)))
+        tried: list[ToePoses] = [self.toes]
+        self._try(self.toes, self._pairs(self.toes.found))
         for aim in AIMS:
             unmet = self._unmet
-            asked = np.broadcast_to(unmet, self.every) & self.toes.found
             if unmet.any():
-                self._try(*self.search.poses(asked, aim=aim), unmet)
+                asked = np.broadcast_to(unmet, self.every) & self.toes.found
+                tried.append(self.search.poses(asked, aim=aim))
+                self._try(tried[-1], unmet)
+        for one, other in itertools.permutations(tried, 2):
+            self._try_pairs(one, other)
 
     @property
     def _unmet(self) -> Booleans:
@@ -137,7 +143,7 @@ class Survey:
         grasps = np.zeros(self.grid.shape, dtype=bool)
         for i, j in self.foot.opposable_pairs:
             grasps |= self._between(i, j, wrap[i], wrap[j]) <= 0
-        unmet = self._pairs(np.isfinite(wrap)) & ~self.witnesses.shows("feasible")
+        unmet = self._pairs(self.toes.found) & ~self.witnesses.shows("feasible")
         return unmet | (grasps & ~self.witnesses.shows("grasping"))
 
     def _between(self, i: int, j: int, one: Floats, other: Floats) -> Floats:
@@ -151,14 +157,20 @@ class Survey:
         senses = [np.cross(*frame) @ self.grid.axis for frame in frames]
         return bool(senses[0] * senses[1] < 0)
 
-    def _try(self, wrap: Floats, controls: tuple[Floats, ...], where: Booleans) -> None:
+    def _try(self, poses: ToePoses, where: Booleans) -> None:
         """All toes that have a pose at once, then pairs of them; the others rest."""
-        found = np.isfinite(wrap)
-        self._offer(found, controls, where)
+        self._offer(poses.found, poses.controls, where)
+        self._try_pairs(poses, poses)
+
+    def _try_pairs(self, poses: ToePoses, others: ToePoses) -> None:
+        """A toe as in some poses and an opposable one as in others; the rest rest."""
         for i, j in self.foot.opposable_pairs:
-            pair = np.zeros_like(found)
-            pair[[i, j]] = found[[i, j]]
-            self._offer(pair, controls, where & self._unmet & found[i] & found[j])
+            where = self._unmet & poses.found[i] & others.found[j]
+            pair = np.zeros(self.every, dtype=bool)
+            pair[[i, j]] = True
+            controls = list(poses.controls)
+            controls[j] = others.controls[j]
+            self._offer(pair, tuple(controls), where)
 
     def _offer(
         self, used: Booleans, controls: tuple[Floats, ...], where: Booleans
@@ -193,27 +205,51 @@ class Survey:
         return np.broadcast_to(marks, (*self.grid.shape, len(self.foot.fingers)))
 
     def _grasps_left(self) -> Booleans:
-        """Branches on which a grasp was not disproved, shape (H, R).
+        """Branches on which a grasp with the palms was not disproved, shape (H, R).
 
-        Two contacts are a quarter turn apart only if their wraps add up to one. What
-        the farthest poses lack is shared out: neither toe can make up its half.
+        Contacts of toes that flex around the branch in opposite senses are a quarter
+        turn apart only if their wraps add up to one, or to one back.
         """
-        wrap, possible = self.toes.wrap, self.toes.answer != Answer.NO
+        left = np.zeros(self.grid.shape, dtype=bool)
         open_ = self.grid.valid & (self.feasible != Answer.NO)
         open_ &= ~self.witnesses.shows("grasping")
+        for sense in (1, -1):
+            criterion = replace(self.criterion, palmar=True, sense=sense)
+            beyond, hopeless = self._lacking(open_ & ~left, sense)
+            asked = np.isfinite(beyond) & open_ & ~hopeless
+            found = self.search.possible(asked, criterion, beyond)
+            left |= open_ & (hopeless | found.any(axis=0))
+        return left
+
+    def _lacking(self, open_: Booleans, sense: int) -> tuple[Floats, Booleans]:
+        """How far two toes would have to be wrapped, one of them at least.
+
+        What the poses found lack to a quarter turn is shared out among the two: if
+        neither can make up its part, both together cannot.
+
+        Args:
+            open_: Branches in question, shape (H, R).
+            sense: 1 for contacts far round, −1 for contacts back.
+
+        Returns:
+            Wraps times the sense [rad], shape (F, H, R), infinite where nothing is
+            asked; branches for which this proves nothing, shape (H, R).
+        """
+        possible = self.toes.answer != Answer.NO
+        wrap = np.where(np.isnan(self.toes.wrap), BEHIND, sense * self.toes.wrap)
+        if sense < 0:
+            wrap = np.maximum(wrap, -np.pi / 4)
         beyond = np.full(self.every, np.inf)
         hopeless = np.zeros(self.grid.shape, dtype=bool)
         for i, j in self.foot.opposable_pairs:
             both = open_ & possible[i] & possible[j]
             lack = np.pi / 2 - wrap[i] - wrap[j]
-            provable = both & (lack > 0) & self._opposed(i, j)
+            provable = both & (lack >= 0) & self._opposed(i, j)
             hopeless |= both & ~provable
             for finger in (i, j):
                 least = np.where(provable, wrap[finger] + SHARE * lack, np.inf)
                 beyond[finger] = np.minimum(beyond[finger], least)
-        asked = np.isfinite(beyond) & open_ & ~hopeless
-        left = self.search.possible(asked, self.criterion, beyond)
-        return np.asarray(open_ & (hopeless | left.any(axis=0)))
+        return beyond, hopeless
 
     def _loose(self) -> tuple[Codes, Floats]:
         """Tangency of toes that may enter, and stable poses of the foot from it."""

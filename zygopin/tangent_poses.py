@@ -31,6 +31,9 @@ Indices = NDArray[np.intp]
 STRIDES = (8, 4, 2, 1)
 """Every how many rows and columns are searched, one grid after the other."""
 
+FEW = 1000
+"""Branches up to which no coarser grid is searched first."""
+
 SAMPLES = 700
 """Poses of a regular grid that are tried on each branch of the coarsest search."""
 
@@ -223,7 +226,12 @@ class _Search:
         """From the coarse grid to the fine one, each from the poses of the last."""
         # A generator for each search, so that threads do not change what is found.
         rng = np.random.default_rng((self.rank, self.side + 1))
-        strides = [s for s in STRIDES if s == 1 or s <= min(self.wanted.shape) // 4]
+        few = self.wanted.sum() <= FEW
+        strides = [
+            s
+            for s in STRIDES
+            if s == 1 or (s <= min(self.wanted.shape) // 4 and not few)
+        ]
         table, places = self._sampled(strides[0])
         self._improve(table, places, rng)
         for stride in strides[1:]:

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin.branch_grid import BranchGrid
+from zygopin.contact_hull import Circles, Criterion, contact_possible
 from zygopin.expansion import Expansion, most_under
 from zygopin.projection import (
     BACK,
@@ -54,17 +55,17 @@ VAGUE = 1e3
 
 
 @dataclass(frozen=True)
-class Criterion:
-    """What counts as a tangent phalanx.
+class _Question:
+    """Which phalanx, which of its sides, and what counts."""
 
-    Attributes:
-        tolerance: Clearance up to which it is tangent, and down to which others are
-            outside the branch [m].
-        solid: Whether the phalanges before it stay out of the branch.
-    """
+    rank: int
+    side: int
+    criterion: Criterion
 
-    tolerance: float
-    solid: bool = True
+    @property
+    def tolerance(self) -> float:
+        """Clearance that counts as contact [m]."""
+        return self.criterion.tolerance
 
 
 def unproved(
@@ -72,8 +73,8 @@ def unproved(
     grid: BranchGrid,
     asked: Booleans,
     criterion: Criterion,
+    beyond: Floats,
     *,
-    beyond: Floats | None = None,
     most_boxes: int = MOST_BOXES,
 ) -> Booleans:
     """Branches on which a finger may yet have a tangent phalanx.
@@ -83,7 +84,8 @@ def unproved(
         grid: The branches.
         asked: The branches in question, for each phalanx, shape (K, H, R).
         criterion: What counts as a tangent phalanx.
-        beyond: Only contacts wrapped farther than this count [rad], shape (H, R).
+        beyond: Only contacts count whose wrap, times the criterion's sense, is more
+            than this [rad], for each phalanx, shape (K, H, R); −∞ for any.
         most_boxes: Boxes looked at for each phalanx and side.
 
     Returns:
@@ -91,16 +93,20 @@ def unproved(
         others no pose exists.
     """
     if finger.edgewise:
-        return asked.copy()
-    least = np.full(grid.shape, -np.inf) if beyond is None else beyond
-    cases = list(itertools.product(reversed(range(len(finger.lengths))), (PALM, BACK)))
+        return np.array(asked)
+    sides = (PALM,) if criterion.palmar else (PALM, BACK)
+    cases = list(itertools.product(reversed(range(len(finger.lengths))), sides))
 
     def left(case: tuple[int, int]) -> Booleans:
-        rank, side = case[0] + 1, case[1]
-        far = _out_of_reach(finger, grid, rank, criterion, least)
-        question = _Question(rank, side, criterion)
-        open_ = asked[case[0]] & ~far
-        return _Proof(finger, grid, open_, question, least, most_boxes).run()
+        index, side = case
+        question, least = _Question(index + 1, side, criterion), beyond[index]
+        near = asked[index] & ~_out_of_reach(finger, grid, question, least)
+        cells = np.nonzero(near)
+        circles = Circles(
+            grid.centres(finger)[cells[0]], grid.radii[cells[1]], least[cells]
+        )
+        near[cells] = contact_possible(finger, circles, index + 1, side, criterion)
+        return _Proof(finger, grid, near, question, least, most_boxes).run()
 
     result = np.zeros_like(asked)
     with ThreadPoolExecutor() as pool:
@@ -141,35 +147,18 @@ def farthest_wrap(
 
 
 def _out_of_reach(
-    finger: ProjectedFinger,
-    grid: BranchGrid,
-    rank: int,
-    criterion: Criterion,
-    least: Floats,
+    finger: ProjectedFinger, grid: BranchGrid, question: _Question, least: Floats
 ) -> Booleans:
     """Branches that a phalanx cannot touch, or not so far round, by its reach alone."""
-    if not criterion.solid:
-        skin = grid.radii + finger.radii[rank - 1] + criterion.tolerance
+    rank, tolerance = question.rank, question.tolerance
+    if not question.criterion.solid:
+        skin = grid.radii + finger.radii[rank - 1] + tolerance
         away = grid.base_distance[:, None] - skin
         return np.asarray(away > finger.lengths[:rank].sum())
-    most = farthest_wrap(finger, grid, rank, criterion.tolerance)
-    # The other way round, a contact is wrapped by a full turn less.
-    short = (most < least) & (most < 2 * np.pi - np.maximum(least, np.pi))
+    most = farthest_wrap(finger, grid, rank, tolerance)
+    # Farther than `BEHIND`, a contact reached the other way round counts as far.
+    short = (most < least) & (most < -BEHIND)
     return np.asarray(np.isneginf(most) | short)
-
-
-@dataclass(frozen=True)
-class _Question:
-    """Which phalanx, which of its sides, and what counts."""
-
-    rank: int
-    side: int
-    criterion: Criterion
-
-    @property
-    def tolerance(self) -> float:
-        """Clearance that counts as contact [m]."""
-        return self.criterion.tolerance
 
 
 @dataclass(frozen=True, eq=False)
@@ -463,11 +452,13 @@ class _Chain:
         return line, along, (line + tolerance, -line + tolerance, *inside)
 
     def _around(self, pitch: Expansion, bound: Floats) -> Expansion:
-        """How much farther round than a bound the contact lies."""
-        wrap = self._wrap(pitch)
-        known = (wrap.low > BEHIND) & np.isfinite(bound)
+        """How much farther round than a bound, or back, the contact lies."""
+        wrap, sense = self._wrap(pitch), float(self.question.criterion.sense)
+        # Across the cut between far round and back, nothing is known.
+        cut = wrap.low > BEHIND if sense > 0 else wrap.high < 2 * np.pi + BEHIND
+        known = cut & np.isfinite(bound)
         slack = np.where(known, wrap.slack, VAGUE)
-        return replace(wrap - np.where(known, bound, 0.0), slack=slack)
+        return replace(wrap * sense - np.where(known, bound, 0.0), slack=slack)
 
     def _wrap(self, pitch: Expansion) -> Expansion:
         """How far round the contact lies: the phalanx's direction against the base's.
@@ -546,7 +537,7 @@ def _doubled(values: Floats, step: int, axis: int) -> Floats:
     ahead = np.delete(values, np.s_[:step], axis=axis)
     part = (slice(ahead.shape[0]), slice(ahead.shape[1]))
     result[part] = np.minimum(result[part], ahead)
-    return result
+    return np.asarray(result)
 
 
 def _power(lengths: Indices) -> Indices:

@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin.branch_grid import BranchGrid
+from zygopin.contact_hull import Criterion
 from zygopin.foot import Foot
 from zygopin.projection import BACK, PALM, Floats, ProjectedFinger
 from zygopin.tangent_poses import FARTHEST, tangent_poses
-from zygopin.tangent_proof import Criterion, unproved
+from zygopin.tangent_proof import unproved
 
 Booleans = NDArray[np.bool_]
 Codes = NDArray[np.int8]
@@ -28,24 +29,30 @@ class Answer(IntEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class ToeContacts:
+class ToePoses:
+    """A pose of each finger on each branch of a grid, where one was found.
+
+    Attributes:
+        found: Where there is a pose, shape (F, H, R).
+        wrap: How far round its contact lies, if the toe's palm touches [rad], shape
+            (F, H, R); NaN where its back does, or without a pose.
+        controls: The poses, for each finger of shape (H, R, K); 0 without one.
+    """
+
+    found: Booleans
+    wrap: Floats
+    controls: tuple[Floats, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class ToeContacts(ToePoses):
     """What is known of each finger's tangency on each branch of a grid.
 
     Attributes:
         answer: `Answer` for each finger and branch, shape (F, H, R).
-        wrap: How far round the contact of the pose lies [rad], shape (F, H, R); NaN
-            without one.
-        controls: The poses, for each finger of shape (H, R, K); 0 without one.
     """
 
     answer: Codes
-    wrap: Floats
-    controls: tuple[Floats, ...]
-
-    @property
-    def found(self) -> Booleans:
-        """Where there is a pose, shape (F, H, R)."""
-        return np.isfinite(self.wrap)
 
 
 class ToeSearch:
@@ -68,16 +75,20 @@ class ToeSearch:
         Returns:
             What is known; `Answer.UNDECIDED` also where nothing was asked.
         """
-        wrap, controls = self.poses(wanted, solid=criterion.solid)
-        answer = np.where(np.isfinite(wrap), Answer.YES, Answer.UNDECIDED)
-        missing = wanted & np.isnan(wrap)
+        poses = self.poses(wanted, solid=criterion.solid)
+        answer = np.where(poses.found, Answer.YES, Answer.UNDECIDED)
+        missing = wanted & ~poses.found
         answer[missing & ~self.possible(missing, criterion)] = Answer.NO
-        return ToeContacts(answer.astype(np.int8), wrap, controls)
+        return ToeContacts(
+            poses.found, poses.wrap, poses.controls, answer.astype(np.int8)
+        )
 
     def poses(
         self, wanted: Booleans, *, solid: bool = True, aim: float = FARTHEST
-    ) -> tuple[Floats, tuple[Floats, ...]]:
+    ) -> ToePoses:
         """Poses wrapped as near to an angle as they are found.
+
+        The palm of a toe is tried first, and its back only where that finds nothing.
 
         Args:
             wanted: Branches in question for each finger, shape (F, H, R).
@@ -85,15 +96,13 @@ class ToeSearch:
             aim: The angle [rad]; by default as far round as can be.
 
         Returns:
-            Wrap [rad], shape (F, H, R), NaN without a pose; controls for each finger,
-            shape (H, R, K).
+            The poses.
         """
         shape = (len(self.fingers), *self.grid.shape)
-        wrap = np.full(shape, np.nan)
+        wrap, found = np.full(shape, np.nan), np.zeros(shape, dtype=bool)
         controls = tuple(np.zeros((*self.grid.shape, count)) for count in self.counts)
         for side in (PALM, BACK):
-            # The toe's back only where its palm finds nothing: it is seldom needed.
-            missing = wanted & np.isnan(wrap)
+            missing = wanted & ~found
             for members in self._alike():
                 leader = self.fingers[members[0]]
                 asked = self._by_rank(members, missing)
@@ -101,11 +110,13 @@ class ToeSearch:
                     leader, self.grid, asked, side=side, solid=solid, aim=aim
                 )
                 for finger in members:
-                    found, pose = poses.best(self.counts[finger], aim)
-                    new = missing[finger] & np.isfinite(found)
-                    wrap[finger][new] = found[new]
+                    angle, pose = poses.best(self.counts[finger], aim)
+                    new = missing[finger] & np.isfinite(angle)
+                    found[finger] |= new
                     controls[finger][new] = pose[new]
-        return wrap, controls
+                    if side == PALM:
+                        wrap[finger][new] = angle[new]
+        return ToePoses(found, wrap, controls)
 
     def possible(
         self, asked: Booleans, criterion: Criterion, beyond: Floats | None = None
@@ -115,7 +126,8 @@ class ToeSearch:
         Args:
             asked: Branches in question for each finger, shape (F, H, R).
             criterion: What counts as a tangent phalanx.
-            beyond: Only contacts wrapped farther than this count [rad], (F, H, R).
+            beyond: Only contacts count whose wrap, times the criterion's sense, is
+                more than this [rad], shape (F, H, R).
 
         Returns:
             Those that are left, shape (F, H, R).
@@ -123,12 +135,13 @@ class ToeSearch:
         left = np.zeros_like(asked)
         for members in self._alike():
             leader = self.fingers[members[0]]
-            least = None
-            if beyond is not None:
-                bounds = np.where(asked, beyond, np.inf)
-                least = bounds[members].min(axis=0)
+            bounds = np.where(asked, -np.inf if beyond is None else beyond, np.inf)
+            least = [
+                np.min([bounds[i] for i in members if self.counts[i] > rank], axis=0)
+                for rank in range(self.counts[members[0]])
+            ]
             open_ = self._by_rank(members, asked)
-            found = unproved(leader, self.grid, open_, criterion, beyond=least)
+            found = unproved(leader, self.grid, open_, criterion, np.stack(least))
             for finger in members:
                 some = found[: self.counts[finger]].any(axis=0)
                 left[finger] = asked[finger] & some

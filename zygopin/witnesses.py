@@ -8,16 +8,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin.branch_grid import BranchGrid
+from zygopin.clearance import dot
 from zygopin.foot import Foot
-from zygopin.grasp import Criteria, GraspReport, check_grasp
+from zygopin.grasp import (
+    PARAMETER_SLACK,
+    Criteria,
+    GraspReport,
+    check_grasp,
+    least_product,
+)
 
 Floats = NDArray[np.float64]
 Booleans = NDArray[np.bool_]
 Indices = NDArray[np.intp]
 
 MERITS = {"touching": 1, "feasible": 100, "grasping": 10_000}
-"""What a pose shows: opposable fingers touch, are tangent, and grasp. Each with
-nothing entering; each shows those before it. Tangent toes count one each."""
+"""What a pose shows: opposable fingers touch, are tangent, and grasp with their palms.
+Each with nothing entering; each shows those before it. Tangent toes count one each."""
 
 
 @dataclass(eq=False)
@@ -80,8 +87,28 @@ class Witnesses:
         opposed = opposing(self.foot, touched(self.foot, report.touching))
         merit = np.where(opposed, MERITS["touching"], 0)
         merit = np.where(report.stable, MERITS["feasible"], merit)
-        merit = np.where(report.grasping, MERITS["grasping"], merit)
+        held = least_product(self.foot, report.normal, report.tangent & palmar(report))
+        grasps = np.nan_to_num(held, nan=np.inf) <= PARAMETER_SLACK
+        merit = np.where(report.grasping & grasps, MERITS["grasping"], merit)
         return np.where(report.feasible & (merit > 0), merit + toes, 0)
+
+
+def palmar(report: GraspReport) -> Booleans:
+    """Phalanges whose contact is on the palm, the side to which they flex.
+
+    Args:
+        report: The report.
+
+    Returns:
+        A mask, shape (…, P).
+    """
+    foot = report.foot
+    azimuths = np.array([finger.azimuth for finger in foot.fingers])
+    across = np.stack([-np.sin(azimuths), np.cos(azimuths), 0 * azimuths], axis=-1)
+    lines = report.bones[..., 1, :] - report.bones[..., 0, :]
+    # A bone moves toward its palm as it turns about the flexion's axis.
+    toward = np.cross(across[foot.finger_of_phalanx], lines)
+    return np.asarray(dot(report.normal, toward) < 0)
 
 
 def touched(foot: Foot, phalanges: Booleans) -> Booleans:
