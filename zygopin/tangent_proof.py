@@ -153,8 +153,8 @@ def _out_of_reach(
         away = grid.base_distance[:, None] - skin
         return np.asarray(away > finger.lengths[:rank].sum())
     most = farthest_wrap(finger, grid, rank, criterion.tolerance)
-    # The other way round, a contact is wrapped by a full turn less.
-    short = (most < least) & (most < 2 * np.pi - np.maximum(least, np.pi))
+    # The other way round, a contact farther than this counts as nearly a full turn.
+    short = most < np.minimum(least, -BEHIND)
     return np.asarray(np.isneginf(most) | short)
 
 
