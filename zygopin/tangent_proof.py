@@ -467,7 +467,8 @@ class _Chain:
         wrap = self._wrap(pitch)
         known = (wrap.low > BEHIND) & np.isfinite(bound)
         slack = np.where(known, wrap.slack, VAGUE)
-        return replace(wrap - np.where(known, bound, 0.0), slack=slack)
+        slope = np.where(known, wrap.slope, 0.0)
+        return replace(wrap - np.where(known, bound, 0.0), slope=slope, slack=slack)
 
     def _wrap(self, pitch: Expansion) -> Expansion:
         """How far round the contact lies: the phalanx's direction against the base's.
@@ -486,7 +487,7 @@ class _Chain:
         bend = area * max(widest - least**2, 0.0) / least**4
         x, z = self.centre
         nearest = np.maximum(np.hypot(x.value, z.value) - np.hypot(x.reach, z.reach), 0)
-        square = x.value**2 + z.value**2
+        square = np.maximum(x.value**2 + z.value**2, TINY)
         swing = (x.value * z.slope - z.value * x.slope) / square
         moves = np.hypot(x.reach, z.reach)
         swept = moves / np.maximum(nearest, moves / VAGUE + TINY)
