@@ -153,7 +153,9 @@ class _Search:
     def _starts(self, branches: Indices) -> _Ranges:
         """All of the wrap and the phalanx, for every number of turns."""
         finger = self.finger
-        low, high = finger.orientation, finger.orientation + self.rank * finger.omega
+        spread = min(np.pi / STARTS / finger.least_stretch, np.pi)
+        low = finger.orientation - spread
+        high = finger.orientation + self.rank * finger.omega + spread
         first, last = (int(np.floor((x + np.pi) / (2 * np.pi))) for x in (low, high))
         turns, middles = np.arange(first, last + 1.0), np.arange(STARTS) + 0.5
         half = np.pi / STARTS
