@@ -97,7 +97,8 @@ class _Ranges:
         branch: Index of the branch, shape (m,).
         turns: Full turns of the pitch beyond (−π, π], shape (m,).
         wrap: Middle and half width [rad], shape (2, m).
-        along: The same of the place along the phalanx, 0 to 1, shape (2, m).
+        along: The same of the place along the phalanx as projected, over its length,
+            0 to 1, shape (2, m).
     """
 
     branch: Indices
@@ -178,12 +179,13 @@ class _Search:
         least = finger.least_stretch
         spread = ranges.wrap[1] / least
         length = finger.lengths[self.rank - 1] * np.minimum(stretch + spread, 1.0)
-        along = ranges.along * length
+        along = ranges.along * finger.lengths[self.rank - 1]
         junction = centre + normal * (skin + 1j * self.side * along[0])
         moves = np.stack([ranges.wrap[1] * (skin + along[0] + along[1]), along[1]])
         margin = moves.sum(axis=0) + tolerance
         pitch = pitch + 2 * np.pi * ranges.turns
         left = self._within(junction, margin, pitch, spread)
+        left &= along[0] - along[1] <= length + tolerance
         if self.criterion.solid:
             left &= self._around(junction, margin, centre, radius)
         return left & (
