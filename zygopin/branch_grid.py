@@ -43,6 +43,9 @@ class BranchGrid:
         level = _monotone("heights", heights)
         thick = _monotone("radii", radii)
         first = Branch(float(thick[0]), (0.0, 0.0, 0.0), axis)
+        across = checks.array("offset", offset)
+        checks.shaped("axis", first.axis, (3,))
+        checks.shaped("offset", across, (2,))
         if len(thick) > 1 and thick[1] < thick[0]:
             raise ParameterError("radii", thick, "rising", "sort them")
         if len(level) * len(thick) > MOST_BRANCHES:
@@ -53,7 +56,7 @@ class BranchGrid:
             ("heights", level),
             ("radii", thick),
             ("axis", first.axis),
-            ("offset", checks.array("offset", offset, last=2)),
+            ("offset", across),
         ):
             object.__setattr__(self, name, checks.read_only(value))
 
@@ -114,7 +117,8 @@ def _monotone(name: str, values: ArrayLike) -> Floats:
     """A strictly monotone list of numbers."""
     found = np.atleast_1d(checks.array(name, values))
     steps = np.diff(found)
-    if found.ndim != 1 or not ((steps > 0).all() or (steps < 0).all()):
+    listed = found.ndim == 1 and found.size > 0
+    if not (listed and ((steps > 0).all() or (steps < 0).all())):
         remedy = "list each value once, in order"
         raise ParameterError(name, values, "strictly rising or falling", remedy)
     return found

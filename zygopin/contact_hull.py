@@ -100,9 +100,11 @@ class _Ranges:
 
     Attributes:
         branch: Index of the branch, shape (m,).
-        turns: Full turns of the pitch beyond (−π, π], shape (m,).
+        turns: Full turns of the pitch, beyond the one that begins in (−π, π] at
+            the least wrap, shape (m,).
         wrap: Middle and half width [rad], shape (2, m).
-        along: The same of the place along the phalanx, 0 to 1, shape (2, m).
+        along: The same of the place along the phalanx as projected, over its length,
+            0 to 1, shape (2, m).
     """
 
     branch: Indices
@@ -159,7 +161,8 @@ class _Search:
         """All of the wrap and the phalanx, for every number of turns."""
         finger = self.finger
         low, high = finger.orientation, finger.orientation + self.rank * finger.omega
-        first, last = (int(np.floor((x + np.pi) / (2 * np.pi))) for x in (low, high))
+        first = int(np.floor((low - np.pi) / (2 * np.pi)))
+        last = int(np.floor((high + np.pi) / (2 * np.pi)))
         turns, middles = np.arange(first, last + 1.0), np.arange(STARTS) + 0.5
         half = np.pi / STARTS
         branch, turn, middle = (
@@ -176,17 +179,21 @@ class _Search:
         centre = self.circles.centre[ranges.branch]
         radius = self.circles.radius[ranges.branch]
         skin = radius + finger.radii[self.rank - 1]
-        normal = -centre / np.abs(centre) * np.exp(-1j * ranges.wrap[0])
+        backmost = -centre / np.abs(centre) * np.exp(-1j * BEHIND)
+        normal = backmost * np.exp(-1j * (ranges.wrap[0] - BEHIND))
         pitch, stretch = finger.pitch(-1j * self.side * normal)
+        # Counted from where wraps begin: the halves of a range keep its turn.
+        begin, _ = finger.pitch(-1j * self.side * backmost)
+        pitch = begin + np.mod(pitch - begin, 2 * np.pi) + 2 * np.pi * ranges.turns
         least = finger.least_stretch
         spread = ranges.wrap[1] / least
         length = finger.lengths[self.rank - 1] * np.minimum(stretch + spread, 1.0)
-        along = ranges.along * length
+        along = ranges.along * finger.lengths[self.rank - 1]
         junction = centre + normal * (skin + 1j * self.side * along[0])
         moves = np.stack([ranges.wrap[1] * (skin + along[0] + along[1]), along[1]])
         margin = moves.sum(axis=0) + tolerance
-        pitch = pitch + 2 * np.pi * ranges.turns
         left = self._within(junction, margin, pitch, spread)
+        left &= along[0] - along[1] <= length + tolerance
         if self.criterion.solid:
             left &= self._around(junction, margin, centre, radius)
         return left & self._counts(ranges), moves

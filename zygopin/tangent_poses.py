@@ -132,7 +132,7 @@ def tangent_poses(
         for i, table in zip(sought, pool.map(_Search.run, searches), strict=True):
             wrap[i] = np.where(table.score > -NOWHERE, table.wrap, np.nan)
             controls[i, ..., :i] = table.free
-            controls[i, ..., i] = table.closing
+            controls[i, ..., i] = np.minimum(table.closing, 1.0)  # but for rounding
     return TangentPoses(wrap, controls)
 
 

@@ -156,8 +156,8 @@ def _out_of_reach(
         away = grid.base_distance[:, None] - skin
         return np.asarray(away > finger.lengths[:rank].sum())
     most = farthest_wrap(finger, grid, rank, tolerance)
-    # Farther than `BEHIND`, a contact reached the other way round counts as far.
-    short = (most < least) & (most < -BEHIND)
+    # The other way round, a contact farther than this counts as nearly a full turn.
+    short = most < np.minimum(least, -BEHIND)
     return np.asarray(np.isneginf(most) | short)
 
 
@@ -458,7 +458,9 @@ class _Chain:
         cut = wrap.low > BEHIND if sense > 0 else wrap.high < 2 * np.pi + BEHIND
         known = cut & np.isfinite(bound)
         slack = np.where(known, wrap.slack, VAGUE)
-        return replace(wrap * sense - np.where(known, bound, 0.0), slack=slack)
+        slope = np.where(known, wrap.slope * sense, 0.0)
+        value = wrap.value * sense - np.where(known, bound, 0.0)
+        return replace(wrap, value=value, slope=slope, slack=slack)
 
     def _wrap(self, pitch: Expansion) -> Expansion:
         """How far round the contact lies: the phalanx's direction against the base's.
@@ -477,7 +479,7 @@ class _Chain:
         bend = area * max(widest - least**2, 0.0) / least**4
         x, z = self.centre
         nearest = np.maximum(np.hypot(x.value, z.value) - np.hypot(x.reach, z.reach), 0)
-        square = x.value**2 + z.value**2
+        square = np.maximum(x.value**2 + z.value**2, TINY)
         swing = (x.value * z.slope - z.value * x.slope) / square
         moves = np.hypot(x.reach, z.reach)
         swept = moves / np.maximum(nearest, moves / VAGUE + TINY)
