@@ -28,6 +28,12 @@ FINEST = 0.02
 """How far a range may move the junction, over the finger's length, below which it is
 left as possible."""
 
+MOST_BENDS = 2
+"""Joints before the contact that are searched where fewer do not rule it out."""
+
+MOST_RANGES = 4000
+"""Ranges for each branch that are looked at before it is left as possible."""
+
 BATCH = 16_384
 """Ranges that are looked at at once: their arrays stay in the cache."""
 
@@ -85,77 +91,93 @@ def contact_possible(
     Returns:
         A mask, shape (n,); elsewhere no contact is possible.
     """
-    search = _Search(finger, circles, rank, side, criterion)
+    left = np.arange(len(circles.radius))
+    for bends in range(min(rank, MOST_BENDS + 1)):
+        search = _Search(finger, circles, rank, side, criterion, bends)
+        left = left[search.possible(left)]
     possible = np.zeros(len(circles.radius), dtype=bool)
-    for start in range(0, len(possible), BATCH // STARTS):
-        search.run(
-            np.arange(start, min(start + BATCH // STARTS, len(possible))), possible
-        )
+    possible[left] = True
     return possible
 
 
 @dataclass(frozen=True, eq=False)
 class _Ranges:
-    """Ranges of wrap and of the place along the phalanx, each for one branch.
+    """Ranges of what places a contact, each for one branch.
 
     Attributes:
         branch: Index of the branch, shape (m,).
-        turns: Full turns of the pitch, beyond the one that begins in (−π, π] at
-            the least wrap, shape (m,).
-        wrap: Middle and half width [rad], shape (2, m).
-        along: The same of the place along the phalanx as projected, over its length,
-            0 to 1, shape (2, m).
+        turns: Full turns of the pitch beyond the least one, shape (m,).
+        middle: Wrap [rad], place along the phalanx from 0 to 1, and the controls of
+            the last joints, the very last first, shape (2 + b, m).
+        half: Half widths of these, shape (2 + b, m).
     """
 
     branch: Indices
     turns: Floats
-    wrap: Floats
-    along: Floats
+    middle: Floats
+    half: Floats
 
-    def take(self, which: Booleans) -> _Ranges:
+    def take(self, which: Booleans | slice) -> _Ranges:
         """Some of the ranges."""
         return _Ranges(*(getattr(self, f.name)[..., which] for f in fields(self)))
 
-    def halved(self, by_wrap: Booleans) -> _Ranges:
-        """Both halves of each, in wrap or along the phalanx."""
-        wrap, along = self.wrap.copy(), self.along.copy()
-        wrap[1] = np.where(by_wrap, wrap[1] / 2, wrap[1])
-        along[1] = np.where(by_wrap, along[1], along[1] / 2)
-        sides = []
-        for sign in (-1, 1):
-            shift = np.stack([np.where(by_wrap, wrap[1], 0.0), np.zeros(len(by_wrap))])
-            slide = np.stack([np.where(by_wrap, 0.0, along[1]), np.zeros(len(by_wrap))])
-            sides.append((wrap + sign * shift, along + sign * slide))
-        twice = np.concatenate
+    def halved(self, widest: Indices) -> _Ranges:
+        """Both halves of each, along one of its dimensions."""
+        half, shift = self.half.copy(), np.zeros_like(self.half)
+        place = widest, np.arange(len(widest))
+        half[place] /= 2
+        shift[place] = half[place]
         return _Ranges(
-            twice([self.branch] * 2),
-            twice([self.turns] * 2),
-            twice([each[0] for each in sides], axis=1),
-            twice([each[1] for each in sides], axis=1),
+            np.concatenate([self.branch] * 2),
+            np.concatenate([self.turns] * 2),
+            np.concatenate([self.middle - shift, self.middle + shift], axis=1),
+            np.concatenate([half] * 2, axis=1),
         )
 
 
 @dataclass(frozen=True, eq=False)
 class _Search:
-    """The search for contacts of one phalanx and one side of it."""
+    """The search for contacts of one phalanx and one side of it.
+
+    So many joints before the contact are searched as well; what is left of the finger
+    is bounded by its hull.
+    """
 
     finger: ProjectedFinger
     circles: Circles
     rank: int
     side: int
     criterion: Criterion
+    bends: int
 
-    def run(self, branches: Indices, possible: Booleans) -> None:
-        """Mark those of some branches on which a contact is possible."""
-        ranges, fine = self._starts(branches), FINEST * self.finger.lengths.sum()
-        while len(ranges.branch):
-            left, moves = self._left(ranges)
-            ranges, moves = ranges.take(left), moves[:, left]
-            small = moves.sum(axis=0) < fine
-            possible[ranges.branch[small]] = True
+    def possible(self, branches: Indices) -> Booleans:
+        """Which of some branches remain, shape (n,)."""
+        left = np.zeros(len(self.circles.radius), dtype=bool)
+        fine = FINEST * self.finger.lengths.sum()
+        chunk = max(BATCH // STARTS, 1)
+        stack = [
+            self._starts(branches[start : start + chunk])
+            for start in range(0, len(branches), chunk)
+        ]
+        budget = MOST_RANGES * max(len(branches), 100)
+        while stack:
+            ranges = stack.pop()
             # A branch with one contact needs no further search.
-            open_ = ~small & ~possible[ranges.branch]
-            ranges = ranges.take(open_).halved((moves[0] >= moves[1])[open_])
+            ranges = ranges.take(~left[ranges.branch])
+            budget -= len(ranges.branch)
+            if budget < 0:
+                left[ranges.branch] = True
+                continue
+            kept, moves = self._left(ranges)
+            ranges, moves = ranges.take(kept), moves[:, kept]
+            small = moves.sum(axis=0) < fine
+            left[ranges.branch[small]] = True
+            halves = ranges.take(~small).halved(np.argmax(moves[:, ~small], axis=0))
+            stack += [
+                halves.take(slice(start, start + BATCH))
+                for start in range(0, len(halves.branch), BATCH)
+            ]
+        return left[branches]
 
     def _starts(self, branches: Indices) -> _Ranges:
         """All of the wrap and the phalanx, for every number of turns."""
@@ -163,14 +185,15 @@ class _Search:
         low, high = finger.orientation, finger.orientation + self.rank * finger.omega
         first = int(np.floor((low - np.pi) / (2 * np.pi)))
         last = int(np.floor((high + np.pi) / (2 * np.pi)))
-        turns, middles = np.arange(first, last + 1.0), np.arange(STARTS) + 0.5
-        half = np.pi / STARTS
-        branch, turn, middle = (
-            each.ravel()
-            for each in np.meshgrid(branches, turns, middles, indexing="ij")
+        turns, places = np.arange(first, last + 1.0), np.arange(STARTS) + 0.5
+        width = np.pi / STARTS
+        branch, turn, place = (
+            each.ravel() for each in np.meshgrid(branches, turns, places, indexing="ij")
         )
-        wrap = np.stack([BEHIND + 2 * half * middle, np.full(len(branch), half)])
-        ranges = _Ranges(branch, turn, wrap, np.full((2, len(branch)), 0.5))
+        half = np.full((2 + self.bends, len(branch)), 0.5)
+        middle = half.copy()
+        middle[0], half[0] = BEHIND + 2 * width * place, width
+        ranges = _Ranges(branch, turn, middle, half)
         return ranges.take(self._counts(ranges))
 
     def _left(self, ranges: _Ranges) -> tuple[Booleans, Floats]:
@@ -179,35 +202,58 @@ class _Search:
         centre = self.circles.centre[ranges.branch]
         radius = self.circles.radius[ranges.branch]
         skin = radius + finger.radii[self.rank - 1]
+        (wrap, along), (width, share) = ranges.middle[:2], ranges.half[:2]
         backmost = -centre / np.abs(centre) * np.exp(-1j * BEHIND)
-        normal = backmost * np.exp(-1j * (ranges.wrap[0] - BEHIND))
+        normal = backmost * np.exp(-1j * (wrap - BEHIND))
         pitch, stretch = finger.pitch(-1j * self.side * normal)
         # Counted from where wraps begin: the halves of a range keep its turn.
         begin, _ = finger.pitch(-1j * self.side * backmost)
         pitch = begin + np.mod(pitch - begin, 2 * np.pi) + 2 * np.pi * ranges.turns
-        least = finger.least_stretch
-        spread = ranges.wrap[1] / least
-        length = finger.lengths[self.rank - 1] * np.minimum(stretch + spread, 1.0)
-        along = ranges.along * finger.lengths[self.rank - 1]
-        junction = centre + normal * (skin + 1j * self.side * along[0])
-        moves = np.stack([ranges.wrap[1] * (skin + along[0] + along[1]), along[1]])
-        margin = moves.sum(axis=0) + tolerance
-        left = self._within(junction, margin, pitch, spread)
-        left &= along[0] - along[1] <= length + tolerance
-        if self.criterion.solid:
-            left &= self._around(junction, margin, centre, radius)
-        return left & self._counts(ranges), moves
+        spread = width / finger.least_stretch
+        length = finger.lengths[self.rank - 1]
+        along, share = along * length, share * length
+        junction = centre + normal * (skin + 1j * self.side * along)
+        moves = np.zeros_like(ranges.half)
+        moves[0], moves[1] = width * (skin + along + share), share
+        left = along - share <= length * np.minimum(stretch + spread, 1.0) + tolerance
+        left &= self._counts(ranges)
+        for bend in range(self.bends + 1):
+            margin = moves.sum(axis=0) + tolerance
+            rank = self.rank - bend
+            left &= self._within(rank, junction, margin, pitch, spread)
+            if self.criterion.solid:
+                left &= self._around(rank, junction, margin, centre, radius)
+            if bend == self.bends:
+                break
+            turn = finger.omega * ranges.half[2 + bend]
+            pitch = pitch - finger.omega * ranges.middle[2 + bend]
+            before, step = junction, finger.lengths[rank - 2] * finger.direction(pitch)
+            junction = junction - step
+            spread = spread + turn
+            moves[0] += finger.lengths[rank - 2] * width / finger.least_stretch
+            moves[2 : 3 + bend] += (
+                finger.lengths[rank - 2] * finger.omega * ranges.half[2 : 3 + bend]
+            )
+            if self.criterion.solid:
+                skin = radius + finger.radii[rank - 2] - tolerance
+                left &= _apart(before - centre, -step) + moves.sum(axis=0) >= skin
+        return left, moves
 
     def _counts(self, ranges: _Ranges) -> Booleans:
         """Which ranges hold contacts that are wrapped as is asked for."""
-        most = self.criterion.sense * ranges.wrap[0] + ranges.wrap[1]
+        most = self.criterion.sense * ranges.middle[0] + ranges.half[0]
         return np.asarray(most > self.circles.beyond[ranges.branch])
 
     def _within(
-        self, junction: Complexes, margin: Floats, pitch: Floats, spread: Floats
+        self,
+        rank: int,
+        junction: Complexes,
+        margin: Floats,
+        pitch: Floats,
+        spread: Floats,
     ) -> Booleans:
         """Whether junctions are in the hull of what the phalanges before can do."""
-        finger, rank = self.finger, self.rank
+        finger = self.finger
         first, bound = finger.orientation, finger.omega
         left = (pitch + spread >= first) & (pitch - spread <= first + rank * bound)
         size = np.abs(junction)
@@ -237,11 +283,16 @@ class _Search:
         return np.asarray(size * np.cos(np.clip(outside, 0.0, np.pi)))
 
     def _around(
-        self, junction: Complexes, margin: Floats, centre: Complexes, radius: Floats
+        self,
+        rank: int,
+        junction: Complexes,
+        margin: Floats,
+        centre: Complexes,
+        radius: Floats,
     ) -> Booleans:
         """Whether the phalanges before are long enough to go around the branch."""
         finger, tolerance = self.finger, self.criterion.tolerance
-        before = max(self.rank - 2, 0)
+        before = max(rank - 2, 0)
         disc = np.maximum(radius + finger.radii[before] - tolerance, tolerance)
         start, end = np.abs(centre), np.abs(junction - centre)
         clear = (end + margin >= disc) & (start >= disc)
@@ -250,5 +301,12 @@ class _Search:
         arc = turn - np.arccos(disc / start) - np.arccos(disc / end)
         tangents = np.sqrt(start**2 - disc**2) + np.sqrt(end**2 - disc**2)
         way = np.where(arc > 0, tangents + disc * arc, np.abs(junction))
-        reach = finger.lengths[: self.rank - 1].sum()
+        reach = finger.lengths[: rank - 1].sum()
         return np.asarray(clear & (way <= reach + np.pi / 2 * margin))
+
+
+def _apart(start: Complexes, step: Complexes) -> Floats:
+    """Distance of segments from the origin."""
+    square = step.real**2 + step.imag**2
+    along = -(start.real * step.real + start.imag * step.imag) / square
+    return np.asarray(np.abs(start + np.clip(along, 0.0, 1.0) * step))
