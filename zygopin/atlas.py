@@ -19,6 +19,7 @@ from zygopin.foot import Foot
 from zygopin.grasp import GraspReport, check_grasp
 from zygopin.survey import Progress, Survey
 from zygopin.toe_contacts import Answer, Codes
+from zygopin.witnesses import opposing, touched
 
 Floats = NDArray[np.float64]
 
@@ -94,6 +95,38 @@ class Atlas:
             UnknownNameError: There is no such question.
         """
         return float(np.mean(self.answer(verdict) == Answer.UNDECIDED))
+
+    def unconfirmed(self, verdict: str) -> int:
+        """How many poses another engine, by Pinocchio and FCL, does not confirm.
+
+        Args:
+            verdict: One of `VERDICTS`.
+
+        Returns:
+            The number of branches answered yes whose pose fails, of all: 0 is wanted.
+
+        Raises:
+            UnknownNameError: There is no such question.
+        """
+        cells = np.nonzero(self.answer(verdict) == Answer.YES)
+        if not len(cells[0]):
+            return 0
+        controls = self.controls[cells]
+        entering = np.isnan(controls).any(axis=-1)
+        if verdict == "stable":
+            controls = np.where(
+                entering[:, None], self.stable_controls[cells], controls
+            )
+        branches = self.grid.at(*cells)
+        report = check_grasp(self.foot, controls, branches, engine="fcl")
+        touching = opposing(self.foot, touched(self.foot, report.touching))
+        holds = {
+            "touchable": touching & report.feasible,
+            "stable": report.stable,
+            "feasible": report.stable & report.feasible,
+            "grasping": report.grasping & report.feasible,
+        }
+        return int((~holds[verdict]).sum())
 
     def branch(self, row: int, column: int) -> Branch:
         """One of the branches.

@@ -24,12 +24,10 @@ DIRECTIONS = np.exp(1j * np.pi / 4 * np.arange(8))
 STARTS = 48
 """Ranges of wrap that are looked at first."""
 
-FINEST = 0.02
-"""How far a range may move the junction, over the finger's length, below which it is
-left as possible."""
-
-MOST_BENDS = 2
-"""Joints before the contact that are searched where fewer do not rule it out."""
+STAGES = ((0, 0.02), (1, 0.02), (2, 0.02), (2, 0.005))
+"""How many joints before the contact are searched, and how far a range may move the
+junction, over the finger's length, below which it is left as possible: each only where
+the ones before rule nothing out."""
 
 MOST_RANGES = 4000
 """Ranges for each branch that are looked at before it is left as possible."""
@@ -92,8 +90,10 @@ def contact_possible(
         A mask, shape (n,); elsewhere no contact is possible.
     """
     left = np.arange(len(circles.radius))
-    for bends in range(min(rank, MOST_BENDS + 1)):
-        search = _Search(finger, circles, rank, side, criterion, bends)
+    for bends, fine in STAGES:
+        search = _Search(
+            finger, circles, rank, side, criterion, min(bends, rank - 1), fine
+        )
         left = left[search.possible(left)]
     possible = np.zeros(len(circles.radius), dtype=bool)
     possible[left] = True
@@ -149,11 +149,12 @@ class _Search:
     side: int
     criterion: Criterion
     bends: int
+    fine: float
 
     def possible(self, branches: Indices) -> Booleans:
         """Which of some branches remain, shape (n,)."""
         left = np.zeros(len(self.circles.radius), dtype=bool)
-        fine = FINEST * self.finger.lengths.sum()
+        fine = self.fine * self.finger.lengths.sum()
         chunk = max(BATCH // STARTS, 1)
         stack = [
             self._starts(branches[start : start + chunk])

@@ -15,13 +15,22 @@ from zygopin.contact_hull import Criterion
 from zygopin.foot import Foot
 from zygopin.grasp import Criteria
 from zygopin.projection import BEHIND, Floats
+from zygopin.tangent_poses import Aim
 from zygopin.tangent_proof import farthest_wrap
-from zygopin.toe_contacts import Answer, Booleans, Codes, ToePoses, ToeSearch
+from zygopin.toe_contacts import (
+    EFFORT,
+    Answer,
+    Booleans,
+    Codes,
+    ToeContacts,
+    ToePoses,
+    ToeSearch,
+)
 from zygopin.touch import TouchIntervals, touch_intervals
 from zygopin.touching import touching_controls
 from zygopin.witnesses import Witnesses, opposing
 
-AIMS = (1.2, 0.8, 1.7, 0.3, 2.4)
+AIMS = (1.2, 0.8, 1.7, 0.3, 2.4, 1.0, 1.4, 2.0, 0.55)
 """Angles to which toes are wrapped in turn [rad] where toes that are wrapped as far
 as can be run into each other."""
 
@@ -57,6 +66,7 @@ class Survey:
         self._join_touching()
         progress("no grasp: proofs")
         self.grasps_left = self._grasps_left()
+        self._try_harder()
         progress("stable poses that enter the branch")
         self.loose, self.loose_controls = self._loose()
 
@@ -131,7 +141,7 @@ class Survey:
             unmet = self._unmet
             if unmet.any():
                 asked = np.broadcast_to(unmet, self.every) & self.toes.found
-                tried.append(self.search.poses(asked, aim=aim))
+                tried.append(self.search.poses(asked, aim=Aim(aim)))
                 self._try(tried[-1], unmet)
         for one, other in itertools.permutations(tried, 2):
             self._try_pairs(one, other)
@@ -156,6 +166,19 @@ class Survey:
         frames = (self.search.fingers[k].frame for k in (i, j))
         senses = [np.cross(*frame) @ self.grid.axis for frame in frames]
         return bool(senses[0] * senses[1] < 0)
+
+    def _try_harder(self) -> None:
+        """More poses where a grasp is in doubt, and the proof again."""
+        left = self.grasps_left & ~self.witnesses.shows("grasping")
+        if not left.any():
+            return
+        asked = np.broadcast_to(left, self.every)
+        more = self.search.poses(asked, aim=Aim(effort=EFFORT))
+        self._try(more, left)
+        joined = self.toes.joined(more)
+        answer = np.where(joined.found, Answer.YES, self.toes.answer).astype(np.int8)
+        self.toes = ToeContacts(joined.found, joined.wrap, joined.controls, answer)
+        self.grasps_left = self._grasps_left()
 
     def _try(self, poses: ToePoses, where: Booleans) -> None:
         """All toes that have a pose at once, then pairs of them; the others rest."""

@@ -83,6 +83,18 @@ class TangentPoses:
         return wrap, chosen[0, ..., :count]
 
 
+class Aim(NamedTuple):
+    """Which poses are sought, and how hard.
+
+    Attributes:
+        wrap: Poses wrapped as near to this angle as can be [rad].
+        effort: How many times as many poses are tried on each branch.
+    """
+
+    wrap: float = FARTHEST
+    effort: int = 1
+
+
 class Contact(NamedTuple):
     """Phalanges laid on their circles: the closing joint and what it makes.
 
@@ -104,7 +116,7 @@ def tangent_poses(
     *,
     side: int = PALM,
     solid: bool = True,
-    aim: float = FARTHEST,
+    aim: Aim | None = None,
 ) -> TangentPoses:
     """Poses of a finger on each branch, wrapped as near to an angle as can be found.
 
@@ -115,7 +127,7 @@ def tangent_poses(
             one, shape (K, H, R).
         side: `PALM` or `BACK`, the side of the toe that touches.
         solid: Keep the phalanges before the tangent one out of the branch.
-        aim: The angle [rad]; by default as far round as can be.
+        aim: The angle, and how hard to try; None: as far round as can be.
 
     Returns:
         The poses; those found are exact up to rounding, none found proves nothing.
@@ -125,9 +137,8 @@ def tangent_poses(
     controls = np.zeros((count, *grid.shape, count))
     ranks = () if finger.edgewise else reversed(range(count))
     sought = [i for i in ranks if wanted[i].any()]
-    searches = (
-        _Search(finger, grid, wanted[i], i + 1, side, solid, aim) for i in sought
-    )
+    quest = _Quest(side, solid, *(aim or Aim()))
+    searches = (_Search(finger, grid, wanted[i], i + 1, quest) for i in sought)
     with ThreadPoolExecutor() as pool:
         for i, table in zip(sought, pool.map(_Search.run, searches), strict=True):
             wrap[i] = np.where(table.score > -NOWHERE, table.wrap, np.nan)
@@ -210,6 +221,15 @@ class _Table(NamedTuple):
         )
 
 
+class _Quest(NamedTuple):
+    """What poses are sought, and how hard."""
+
+    side: int
+    solid: bool
+    aim: float
+    effort: int
+
+
 @dataclass(frozen=True, eq=False)
 class _Search:
     """The search for poses in which one phalanx touches with one side."""
@@ -218,15 +238,13 @@ class _Search:
     grid: BranchGrid
     wanted: Booleans
     rank: int
-    side: int
-    solid: bool
-    aim: float
+    quest: _Quest
 
     def run(self) -> _Table:
         """From the coarse grid to the fine one, each from the poses of the last."""
         # A generator for each search, so that threads do not change what is found.
-        rng = np.random.default_rng((self.rank, self.side + 1))
-        few = self.wanted.sum() <= FEW
+        rng = np.random.default_rng((self.rank, self.quest.side + 1))
+        few = self.wanted.sum() <= FEW or self.quest.effort > 1
         strides = [
             s
             for s in STRIDES
@@ -244,7 +262,7 @@ class _Search:
         places = self._places(stride)
         table = _Table.empty((len(places[0]), len(places[1])), self.rank)
         where = self._where(places)
-        for free in _regular(self.rank - 1):
+        for free in _regular(self.rank - 1, self.quest.effort):
             tried = np.broadcast_to(free, (len(where[0]), self.rank - 1))
             self._offer(table, places, where, tried)
         return table, places
@@ -277,7 +295,7 @@ class _Search:
         if self.rank == 1:
             return
         where = self._where(places)
-        for size in STEPS:
+        for size in STEPS * self.quest.effort:
             for _ in range(2):
                 free = table.free[where]
                 step = size * rng.standard_normal(free.shape)
@@ -312,10 +330,12 @@ class _Search:
         rows, columns = places[0][where[0]], places[1][where[1]]
         centre = self.grid.centres(self.finger)[rows]
         radius = self.grid.radii[columns]
-        made = lay_on(self.finger, free, centre, radius, self.side, self.solid)
+        made = lay_on(
+            self.finger, free, centre, radius, self.quest.side, self.quest.solid
+        )
         excess = made.excess / self.finger.lengths[0]
         score = np.where(
-            excess <= ROUNDING, -np.abs(made.wrap - self.aim), -NOWHERE - excess
+            excess <= ROUNDING, -np.abs(made.wrap - self.quest.aim), -NOWHERE - excess
         )
         better = score > table.score[where]
         kept = tuple(axis[better] for axis in where)
@@ -325,11 +345,11 @@ class _Search:
         table.closing[kept] = made.control[better]
 
 
-def _regular(count: int) -> Iterator[Floats]:
+def _regular(count: int, effort: int) -> Iterator[Floats]:
     """A regular grid of controls, of at most about `SAMPLES` points."""
     if count == 0:
         return iter([np.zeros(0)])
-    most = int(min(max(SAMPLES ** (1 / count) + 1e-9, 2), 33))
+    most = int(min(max((SAMPLES * effort) ** (1 / count) + 1e-9, 2), 33))
     return (
         np.array(each) for each in product(np.linspace(0.0, 1.0, most), repeat=count)
     )

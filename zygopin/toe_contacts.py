@@ -12,8 +12,11 @@ from zygopin.branch_grid import BranchGrid
 from zygopin.contact_hull import Criterion
 from zygopin.foot import Foot
 from zygopin.projection import BACK, PALM, Floats, ProjectedFinger
-from zygopin.tangent_poses import FARTHEST, tangent_poses
+from zygopin.tangent_poses import Aim, tangent_poses
 from zygopin.tangent_proof import unproved
+
+EFFORT = 4
+"""How many times as many poses are tried where neither a pose nor a proof was found."""
 
 Booleans = NDArray[np.bool_]
 Codes = NDArray[np.int8]
@@ -42,6 +45,17 @@ class ToePoses:
     found: Booleans
     wrap: Floats
     controls: tuple[Floats, ...]
+
+    def joined(self, others: ToePoses) -> ToePoses:
+        """The poses of both, those wrapped farther where both have one."""
+        better = others.found & ~(self.wrap >= others.wrap)
+        better &= ~self.found | np.isfinite(others.wrap)
+        pairs = zip(better, self.controls, others.controls, strict=True)
+        return ToePoses(
+            self.found | others.found,
+            np.where(better, others.wrap, self.wrap),
+            tuple(np.where(new[..., None], b, a) for new, a, b in pairs),
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,15 +90,22 @@ class ToeSearch:
             What is known; `Answer.UNDECIDED` also where nothing was asked.
         """
         poses = self.poses(wanted, solid=criterion.solid)
-        answer = np.where(poses.found, Answer.YES, Answer.UNDECIDED)
-        missing = wanted & ~poses.found
-        answer[missing & ~self.possible(missing, criterion)] = Answer.NO
+        left = self.possible(wanted & ~poses.found, criterion)
+        again = self.poses(left, solid=criterion.solid, aim=Aim(effort=EFFORT))
+        poses = poses.joined(again)
+        answer = np.where(left, Answer.UNDECIDED, Answer.NO)
+        answer[poses.found] = Answer.YES
+        answer[~wanted] = Answer.UNDECIDED
         return ToeContacts(
             poses.found, poses.wrap, poses.controls, answer.astype(np.int8)
         )
 
     def poses(
-        self, wanted: Booleans, *, solid: bool = True, aim: float = FARTHEST
+        self,
+        wanted: Booleans,
+        *,
+        solid: bool = True,
+        aim: Aim | None = None,
     ) -> ToePoses:
         """Poses wrapped as near to an angle as they are found.
 
@@ -93,7 +114,7 @@ class ToeSearch:
         Args:
             wanted: Branches in question for each finger, shape (F, H, R).
             solid: Keep the phalanges before the tangent one out of the branch.
-            aim: The angle [rad]; by default as far round as can be.
+            aim: The angle, and how hard to try; None: as far round as can be.
 
         Returns:
             The poses.
@@ -101,6 +122,7 @@ class ToeSearch:
         shape = (len(self.fingers), *self.grid.shape)
         wrap, found = np.full(shape, np.nan), np.zeros(shape, dtype=bool)
         controls = tuple(np.zeros((*self.grid.shape, count)) for count in self.counts)
+        wrap_aim = (aim or Aim()).wrap
         for side in (PALM, BACK):
             missing = wanted & ~found
             for members in self._alike():
@@ -110,7 +132,7 @@ class ToeSearch:
                     leader, self.grid, asked, side=side, solid=solid, aim=aim
                 )
                 for finger in members:
-                    angle, pose = poses.best(self.counts[finger], aim)
+                    angle, pose = poses.best(self.counts[finger], wrap_aim)
                     new = missing[finger] & np.isfinite(angle)
                     found[finger] |= new
                     controls[finger][new] = pose[new]
