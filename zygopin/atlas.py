@@ -112,11 +112,9 @@ class Atlas:
         if not len(cells[0]):
             return 0
         controls = self.controls[cells]
-        entering = np.isnan(controls).any(axis=-1)
         if verdict == "stable":
-            controls = np.where(
-                entering[:, None], self.stable_controls[cells], controls
-            )
+            known = np.isfinite(controls)
+            controls = np.where(known, controls, self.stable_controls[cells])
         branches = self.grid.at(*cells)
         report = check_grasp(self.foot, controls, branches, engine="fcl")
         touching = opposing(self.foot, touched(self.foot, report.touching))

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from zygopin.branch_grid import BranchGrid
 from zygopin.contact_hull import Criterion
 from zygopin.foot import Foot
-from zygopin.grasp import Criteria
+from zygopin.grasp import Criteria, check_grasp
 from zygopin.projection import BEHIND, Floats
 from zygopin.tangent_poses import Aim
 from zygopin.tangent_proof import farthest_wrap
@@ -289,5 +289,7 @@ class Survey:
             mine = np.where(solid[:, None], self.toes.controls[index][cells], np.nan)
             mine[other] = loose.controls[index][cells][other]
             poses[:, part] = np.where(np.isnan(mine), poses[:, part], mine)
+        report = check_grasp(self.foot, poses, self.grid.at(*cells))
+        poses[~report.stable] = np.nan
         controls[cells] = poses
         return answer, controls
