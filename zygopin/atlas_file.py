@@ -26,6 +26,7 @@ UNITS = {
 """The arrays of a file, and their units."""
 
 _LINES = ("heights", "radii", "axis", "offset")
+_NO_ARCHIVE = (ValueError, KeyError, AttributeError, EOFError, zipfile.BadZipFile)
 _REMEDY = "name a file that save_atlas has written"
 
 
@@ -78,8 +79,8 @@ def load_atlas(path: Path | str) -> Atlas:
     except OSError as error:
         problem = error.strerror or str(error)
         raise FileError(path, f"cannot be read: {problem}", _REMEDY) from error
-    except (ValueError, KeyError, AttributeError, EOFError, zipfile.BadZipFile) as fault:
-        raise FileError(path, "is no atlas", _REMEDY) from fault
+    except _NO_ARCHIVE as error:
+        raise FileError(path, "is no atlas", _REMEDY) from error
     try:
         return _atlas(arrays)
     except (ZygopinError, ValueError, KeyError, TypeError) as error:

@@ -82,22 +82,25 @@ def graspable_range(atlas: Atlas) -> tuple[float, float] | None:
 
 
 def largest_wrap(atlas: Atlas) -> dict[str, float] | None:
-    """The largest wrap that a pose shows, and on which branch.
+    """The largest wrap of a toe that a pose shows on a branch that is grasped.
+
+    On others a toe may lie on the branch from behind, which counts as nearly all the
+    way round.
 
     Args:
         atlas: The atlas.
 
     Returns:
-        `wrap` [rad], `bound` [rad], `height` [m] and `radius` [m]; None: no finger can
-        be tangent with nothing entering.
+        `wrap` and the proved `bound` on that branch [rad], its `height` and `radius`
+        [m]; None: no branch is grasped.
     """
-    shown = atlas.wrap[..., 0]
+    shown = np.where(atlas.grasping == Answer.YES, atlas.wrap[..., 0], np.nan)
     if not np.isfinite(shown).any():
         return None
     row, column = np.unravel_index(np.nanargmax(shown), shown.shape)
     return {
         "wrap": float(shown[row, column]),
-        "bound": float(np.nanmax(atlas.wrap[..., 1])),
+        "bound": float(atlas.wrap[row, column, 1]),
         "height": float(atlas.grid.heights[row]),
         "radius": float(atlas.grid.radii[column]),
     }
@@ -130,11 +133,9 @@ def summary_lines(atlas: Atlas) -> list[str]:
     if radii is not None:
         low, high = (_mm(radius) for radius in radii)
         lines = [f"graspable at some height: radii from {low} to {high} mm"]
-    if wrap is None:
-        lines.append("largest wrap: no toe can be tangent")
-    else:
+    if wrap is not None:
         lines.append(
-            f"largest wrap: {math.degrees(wrap['wrap']):.1f}°, radius "
+            f"largest wrap of a grasp: {math.degrees(wrap['wrap']):.1f}°, radius "
             f"{_mm(wrap['radius'])} mm, height {_mm(wrap['height'])} mm"
         )
     lines.append(f"more may be possible on {open_share(atlas):.1%} of the branches")

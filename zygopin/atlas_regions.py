@@ -121,7 +121,8 @@ def open_share(atlas: Atlas) -> float:
 def has_pose(atlas: Atlas) -> Booleans:
     """Branches for which a pose shows something, shape (H, R)."""
     poses = (atlas.controls, atlas.stable_controls)
-    return np.any([np.isfinite(pose).all(axis=-1) for pose in poses], axis=0)
+    found = np.any([np.isfinite(pose).all(axis=-1) for pose in poses], axis=0)
+    return np.asarray(found)
 
 
 def picked_cells(atlas: Atlas, count: int) -> list[Cell]:

@@ -13,6 +13,9 @@ from zygopin.options import MM, POSITIVE_MM, axis_options, foot_options, make_fo
 from zygopin.terminal import print_table, waiting
 
 if TYPE_CHECKING:  # commands load what they use, so that --help is quick
+    import numpy as np
+    from numpy.typing import NDArray
+
     from zygopin.atlas import Atlas
     from zygopin.branch_grid import BranchGrid
     from zygopin.foot import Foot
@@ -103,7 +106,9 @@ def atlas(scene_height: float | None, as_json: bool, **options: Any) -> None:
         click.echo(line)
 
 
-def _task(pair: str | None, cells: tuple[int, int], **options: Any) -> Any:
+def _task(
+    pair: str | None, cells: tuple[int, int], **options: Any
+) -> tuple[Foot, BranchGrid]:
     """The foot and the grid that the options ask for."""
     from zygopin.branch import branch_axis
 
@@ -121,7 +126,7 @@ def _grid(
     foot: Foot,
     cells: tuple[int, int],
     ranges: list[Interval | None],
-    axis: Any,
+    axis: NDArray[np.float64],
     ahead: float,
 ) -> BranchGrid:
     """The grid, where nothing is said in proportion to the foot."""
@@ -155,6 +160,7 @@ def _write(
         else:
             from zygopin import atlas_plots
 
-            draw = {"png": atlas_plots.plot_atlas, "wrap_png": atlas_plots.plot_wrap}
-            draw[name](found, path)
+            wrap = name == "wrap_png"
+            draw = atlas_plots.plot_atlas_wrap if wrap else atlas_plots.plot_atlas
+            draw(found, path)
     return [f"{_FILES[name][0]}: {path}" for name, path in files.items() if path]
