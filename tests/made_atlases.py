@@ -31,9 +31,10 @@ def made_atlas(rows=7, columns=9, axis=(0.0, 1.0, 0.0)):
     cells = np.nonzero(grid.valid)
     controls, wraps = _farthest(foot, grid.at(*cells))
     report = check_grasp(foot, controls, grid.at(*cells))
-    touching = (report.touching | report.tangent).all(axis=-1, where=True)
+    met = report.touching | report.tangent
+    both = [met[:, part].any(axis=1) for part in foot.finger_slices.values()]
     shown = {
-        "touchable": report.feasible & (report.stable | touching),
+        "touchable": report.feasible & np.all(both, axis=0),
         "stable": report.stable,
         "feasible": report.feasible & report.stable,
         "grasping": report.feasible & report.grasping,

@@ -11,7 +11,7 @@ from zygopin.atlas import VERDICTS, Atlas
 from zygopin.atlas_regions import (
     REGION_WORDS,
     Region,
-    atlas_regions,
+    region_map,
     open_share,
     region_shares,
 )
@@ -174,7 +174,7 @@ def map_lines(atlas: Atlas) -> list[str]:
 def region_letters(atlas: Atlas) -> list[str]:
     """The regions, a line for each height of the grid and a letter for each radius."""
     return [
-        "".join(LETTERS[Region(code)] for code in line) for line in atlas_regions(atlas)
+        "".join(LETTERS[Region(code)] for code in line) for line in region_map(atlas)
     ]
 
 

@@ -16,7 +16,7 @@ from zygopin.atlas_regions import (
     REGION_WORDS,
     Cell,
     Region,
-    atlas_regions,
+    region_map,
     open_cells,
     open_share,
     picked_cells,
@@ -184,7 +184,7 @@ def _draw_regions(panel: Axes, atlas: Atlas, unit: Unit) -> None:
     order = sorted(REGION_COLOURS)
     colours = ListedColormap([REGION_COLOURS[region] for region in order])
     low, high = int(order[0]) - 0.5, int(order[-1]) + 0.5
-    edges, regions = _edges(atlas, unit), atlas_regions(atlas)
+    edges, regions = _edges(atlas, unit), region_map(atlas)
     panel.pcolormesh(*edges, regions, cmap=colours, vmin=low, vmax=high)
     _draw_open(panel, atlas, edges)
     _name_map(panel, unit, first=True)
@@ -294,7 +294,7 @@ def _capsule(bone: NDArray[np.complex128], radius: float) -> Floats:
 
 def _view_title(atlas: Atlas, cell: Cell, letter: str, unit: Unit) -> str:
     """Which branch a side view shows, and what the pose shows."""
-    region = REGION_WORDS[Region(atlas_regions(atlas)[cell])]
+    region = REGION_WORDS[Region(region_map(atlas)[cell])]
     radius, height = atlas.grid.radii[cell[1]], atlas.grid.heights[cell[0]]
     return f"{letter}: {region}\nr = {_text(radius, unit)}, z = {_text(height, unit)}"
 

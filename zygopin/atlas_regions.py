@@ -51,7 +51,7 @@ _BETTER: dict[Region, tuple[str, ...]] = {
 """Questions whose yes would put a branch into a better region."""
 
 
-def atlas_regions(atlas: Atlas) -> Codes:
+def region_map(atlas: Atlas) -> Codes:
     """The most that is shown for each branch.
 
     A branch that can be touched with nothing entering counts as that even where it is
@@ -86,7 +86,7 @@ def open_cells(atlas: Atlas) -> Booleans:
         Where a question is undecided whose yes would put the branch into a better
         region; shape (H, R).
     """
-    regions = atlas_regions(atlas)
+    regions = region_map(atlas)
     found = regions == Region.UNDECIDED
     for region, better in _BETTER.items():
         asked = np.any([atlas.answer(name) == Answer.UNDECIDED for name in better], 0)
@@ -104,7 +104,7 @@ def region_shares(atlas: Atlas) -> dict[Region, float]:
         Shares of the branches that do not hold the base, the best region first; 0
         where there are none.
     """
-    regions = atlas_regions(atlas)
+    regions = region_map(atlas)
     count = max(int(np.sum(regions != Region.HOLDS_BASE)), 1)
     return {
         region: float(np.sum(regions == region)) / count
@@ -136,7 +136,7 @@ def picked_cells(atlas: Atlas, count: int) -> list[Cell]:
         Rows and columns, by growing radius: most from the grasping region, one from
         each other region that has poses; fewer where there are not so many.
     """
-    regions, posed = atlas_regions(atlas), has_pose(atlas)
+    regions, posed = region_map(atlas), has_pose(atlas)
     kinds = [r for r in REGION_WORDS if np.any(posed & (regions == r))]
     chosen: list[Cell] = []
     for place, kind in enumerate(kinds):

@@ -17,7 +17,7 @@ from zygopin.atlas_regions import (
     REGION_WORDS,
     Cell,
     Region,
-    atlas_regions,
+    region_map,
     has_pose,
     pose_report,
 )
@@ -68,6 +68,9 @@ SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0)
 WIDE_STEP = 0.45
 """Radius over the foot's size from which the frame leaves a branch out."""
 
+ROUNDING = 1e-9
+"""How far over the foot's size a branch may be too near to the base to rest on."""
+
 REGION_PAINTS = {
     Region.GRASPING: Paint(0x1B7F3B),
     Region.FEASIBLE: Paint(0xB45309),
@@ -104,9 +107,9 @@ class _Row:
         """The branches of a row; those that hold the base are left out."""
         grid = atlas.grid
         if height is None:
-            room = np.where(
-                grid.valid, grid.base_distance[:, None] - grid.radii, np.inf
-            )
+            # A foot at rest has its skin between its base and the bark.
+            room = grid.base_distance[:, None] - grid.radii - atlas.foot.radii.max()
+            room[(room < -ROUNDING * atlas.foot.size) | ~grid.valid] = np.inf
             room[grid.heights > 0] = np.inf
             rows, level = np.argmin(room, axis=0), None
             usable = np.isfinite(room.min(axis=0))
@@ -116,7 +119,7 @@ class _Row:
             usable = grid.valid[row]
         columns = np.flatnonzero(usable)
         if not len(columns):
-            remedy = "choose a height farther below the base"
+            remedy = "choose one farther below the base"
             allowed = "a height with branches that do not hold the base"
             raise ParameterError("height", height, allowed, remedy)
         count = min(len(columns), MOST_STEPS)
@@ -127,7 +130,7 @@ class _Row:
     @cached_property
     def regions(self) -> list[Region]:
         """The most that is shown for each branch."""
-        found = atlas_regions(self.atlas)
+        found = region_map(self.atlas)
         return [Region(int(found[cell])) for cell in self.cells]
 
     @cached_property
@@ -192,8 +195,8 @@ def export_atlas_scene(
         atlas: The atlas.
         path: The file; its folders are made where they are missing.
         height: z of the branches' centres [m], the nearest of the grid's; None: for
-            each radius the height of the grid nearest to that of a foot at rest, whose
-            base sits on the branch.
+            each radius the highest of the grid's that leaves room for the skin between
+            the base and the bark, as for a foot at rest.
         title: Title in plain text; None: the foot's name.
 
     Returns:
@@ -299,7 +302,7 @@ def _speeds() -> str:
 def _caption(row: _Row, title: str, arm: float) -> str:
     """What is shown, how to play it, and the colours."""
     lengths, last = Lengths(row.atlas.foot.size), len(row.cells) - 1
-    height = "that of a foot at rest" if row.height is None else lengths(row.height)
+    height = "as for a foot at rest" if row.height is None else lengths(row.height)
     grasped = sum(region == Region.GRASPING for region in row.regions)
     words = f"Grasped: {grasped} of {len(row.cells)} branches"
     colour = REGION_PAINTS[Region.GRASPING if grasped else Region.NONE].css
