@@ -26,7 +26,7 @@ UNITS = {
 """The arrays of a file, and their units."""
 
 _LINES = ("heights", "radii", "axis", "offset")
-_NO_ARCHIVE = (ValueError, KeyError, AttributeError, EOFError, zipfile.BadZipFile)
+_NO_ARCHIVE = (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile)
 _REMEDY = "name a file that save_atlas has written"
 
 
