@@ -18,9 +18,10 @@ from zygopin import (
     plot_atlas_wrap,
     region_map,
 )
-from zygopin.atlas_plots import REGION_COLOURS, side_view
+from zygopin.atlas_plots import REGION_COLOURS
 from zygopin.drawing import finger_paint
 from zygopin.errors import FileError
+from zygopin.side_views import side_view
 
 
 def test_every_region_has_its_colour_on_the_map(tmp_path):

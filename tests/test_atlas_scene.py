@@ -19,7 +19,8 @@ from zygopin import (
     region_map,
 )
 from zygopin.atlas_regions import REGION_WORDS, has_pose
-from zygopin.atlas_scene import REGION_PAINTS, STEP
+from zygopin.atlas_row import STEP
+from zygopin.atlas_scene import REGION_PAINTS
 from zygopin.errors import FileError
 
 HOSTILE = "</script><b>\"x\" & 'y'</b>"

@@ -198,7 +198,9 @@ def test_a_large_map_is_thinned_to_a_terminal():
     atlas = made_atlas(30, 70)
     lines = map_lines(atlas)
     assert max(map(len, lines)) <= 80
-    assert len([line for line in lines if line[:9].strip()[:1] in "-0"]) <= MAP_SHAPE[0]
+    ends = next(place for place, line in enumerate(lines) if "radius [mm]" in line)
+    assert ends - 1 == MAP_SHAPE[0]
+    assert lines[1].split()[0] == f"{atlas.grid.heights[-1] * 1e3:.4g}"
 
 
 def test_the_title_names_what_is_turned():

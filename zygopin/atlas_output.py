@@ -11,8 +11,8 @@ from zygopin.atlas import VERDICTS, Atlas
 from zygopin.atlas_regions import (
     REGION_WORDS,
     Region,
-    region_map,
     open_share,
+    region_map,
     region_shares,
 )
 from zygopin.branch import yaw_and_pitch
@@ -32,6 +32,8 @@ LETTERS = {
 
 MAP_SHAPE = (24, 64)
 """Most lines and columns of the map on a terminal."""
+
+RADIUS = "radius [mm]"
 
 MARGIN = 9
 """Characters before each line of the map."""
@@ -159,14 +161,14 @@ def map_lines(atlas: Atlas) -> list[str]:
     rows = rows[np.argsort(-atlas.grid.heights[rows])]
     heights = [f"{_mm(height):>{MARGIN - 1}} " for height in atlas.grid.heights[rows]]
     ends = [_mm(radii[columns[place]]) for place in (0, -1)]
-    gap = max(len(columns) - len(ends[0]) - len(ends[1]), 1) * " "
+    gap = max(len(columns) - len(ends[0]) - len(ends[1]), len(RADIUS) + 2)
     return [
         f"{'z [mm]':>{MARGIN - 1}}",
         *(
             (height + "".join(letters[row][column] for column in columns)).rstrip()
             for row, height in zip(rows, heights, strict=True)
         ),
-        MARGIN * " " + ends[0] + gap + ends[1] + "  radius [mm]",
+        MARGIN * " " + ends[0] + f"{RADIUS:^{gap}}" + ends[1],
         *_key_lines(atlas),
     ]
 

@@ -3,25 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property
 from html import escape
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from zygopin import checks
 from zygopin.atlas import Atlas
 from zygopin.atlas_regions import (
     REGION_WORDS,
-    Cell,
     Region,
-    region_map,
-    has_pose,
     pose_report,
 )
-from zygopin.branch import Branch
+from zygopin.atlas_row import Row
 from zygopin.camera import View, framed, wrap_direction
 from zygopin.canvas import Canvas
 from zygopin.caption import Lengths, foot_rows, legend, section
@@ -41,10 +35,8 @@ from zygopin.drawing import (
     rims,
     stretch_beyond,
 )
-from zygopin.errors import ParameterError
 from zygopin.files import write_text
 from zygopin.foot import Foot
-from zygopin.kinematics import forward_kinematics
 from zygopin.playback import (
     Playback,
     Span,
@@ -57,19 +49,10 @@ from zygopin.scene import direction_pairs, keys
 from zygopin.solids import Paint
 from zygopin.viewer import Player, Recorder, page, set_stage
 
-MOST_STEPS = 48
-"""Branches of a scene; rows with more radii are thinned: about two megabytes."""
-
-STEP = 0.35
-"""How long each branch is shown [s]."""
-
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0)
 
 WIDE_STEP = 0.45
 """Radius over the foot's size from which the frame leaves a branch out."""
-
-ROUNDING = 1e-9
-"""How far over the foot's size a branch may be too near to the base to rest on."""
 
 REGION_PAINTS = {
     Region.GRASPING: Paint(0x1B7F3B),
@@ -86,96 +69,6 @@ HINT = (
     "a radius in the table jumps to it. Each picture is a pose that was checked; "
     "without one the foot is not drawn."
 )
-
-
-@dataclass(frozen=True, eq=False)
-class _Row:
-    """Branches by growing radius, at one height or right under the base.
-
-    Attributes:
-        atlas: The atlas.
-        cells: Rows and columns of the branches.
-        height: Their height [m]; None: as high as the base allows.
-    """
-
-    atlas: Atlas
-    cells: tuple[Cell, ...]
-    height: float | None
-
-    @classmethod
-    def at(cls, atlas: Atlas, height: float | None) -> _Row:
-        """The branches of a row; those that hold the base are left out."""
-        grid = atlas.grid
-        if height is None:
-            # A foot at rest has its skin between its base and the bark.
-            room = grid.base_distance[:, None] - grid.radii - atlas.foot.radii.max()
-            room[(room < -ROUNDING * atlas.foot.size) | ~grid.valid] = np.inf
-            room[grid.heights > 0] = np.inf
-            rows, level = np.argmin(room, axis=0), None
-            usable = np.isfinite(room.min(axis=0))
-        else:
-            row = int(np.argmin(np.abs(grid.heights - checks.number("height", height))))
-            rows, level = np.full(grid.shape[1], row), float(grid.heights[row])
-            usable = grid.valid[row]
-        columns = np.flatnonzero(usable)
-        if not len(columns):
-            remedy = "choose one farther below the base"
-            allowed = "a height with branches that do not hold the base"
-            raise ParameterError("height", height, allowed, remedy)
-        count = min(len(columns), MOST_STEPS)
-        places = np.linspace(0, len(columns) - 1, count).round().astype(int)
-        cells = tuple((int(rows[k]), int(k)) for k in columns[places])
-        return cls(atlas, cells, level)
-
-    @cached_property
-    def regions(self) -> list[Region]:
-        """The most that is shown for each branch."""
-        found = region_map(self.atlas)
-        return [Region(int(found[cell])) for cell in self.cells]
-
-    @cached_property
-    def posed(self) -> list[bool]:
-        """Which branches have a pose."""
-        found = has_pose(self.atlas)
-        return [bool(found[cell]) for cell in self.cells]
-
-    @cached_property
-    def times(self) -> NDArray[np.float64]:
-        """When each branch is shown first [s]."""
-        return np.array([STEP * k for k in range(len(self.cells))])
-
-    def ends(self, step: int) -> tuple[float, float]:
-        """From when until when a branch is shown [s]."""
-        last = step == len(self.cells) - 1
-        start = float(self.times[step])
-        return start, start + (1e3 if last else STEP)
-
-    def branch(self, step: int) -> Branch:
-        """One of the branches."""
-        return self.atlas.branch(*self.cells[step])
-
-    def radius(self, step: int) -> float:
-        """Radius of one of the branches [m]."""
-        return float(self.atlas.grid.radii[self.cells[step][1]])
-
-    @cached_property
-    def bones(self) -> NDArray[np.float64]:
-        """Bones of the poses, where there is none those before, (n, P, 2, 3) [m]."""
-        foot = self.atlas.foot
-        controls = np.zeros((len(self.cells), foot.phalanx_count))
-        shown = np.zeros(foot.phalanx_count)
-        for step, cell in enumerate(self.cells):
-            for poses in (self.atlas.stable_controls, self.atlas.controls):
-                if np.isfinite(poses[cell]).all():
-                    shown = poses[cell]
-            controls[step] = shown
-        return forward_kinematics(foot, controls)
-
-    @property
-    def changes(self) -> list[int]:
-        """Steps at which another region begins, the first among them."""
-        regions = self.regions
-        return [k for k in range(len(regions)) if not k or regions[k - 1] != regions[k]]
 
 
 def export_atlas_scene(
@@ -207,7 +100,7 @@ def export_atlas_scene(
         FileError: The file cannot be written.
     """
     checks.instance("atlas", atlas, Atlas)
-    row, foot = _Row.at(atlas, height), atlas.foot
+    row, foot = Row.at(atlas, height), atlas.foot
     view = _view(row)
     recorder = Recorder()
     set_stage(recorder, view)
@@ -229,7 +122,7 @@ def export_atlas_scene(
     return write_text(path, page(recorder, view, title, words, player))
 
 
-def _view(row: _Row) -> View:
+def _view(row: Row) -> View:
     """The view that frames all poses, and branches that are not too wide for it."""
     foot, grid = row.atlas.foot, row.atlas.grid
     points = row.bones.reshape(-1, 3)
@@ -244,13 +137,13 @@ def _view(row: _Row) -> View:
     return framed(points, radii, wrap_direction(grid.axis, up / np.linalg.norm(up)))
 
 
-def _stretch(row: _Row) -> tuple[float, float]:
+def _stretch(row: Row) -> tuple[float, float]:
     """The part of every branch that is drawn, beyond the foot in all its poses [m]."""
     size = row.atlas.foot.size
     return stretch_beyond(row.branch(0), row.bones.reshape(-1, 3), size)
 
 
-def _draw_steps(canvas: Canvas, row: _Row) -> None:
+def _draw_steps(canvas: Canvas, row: Row) -> None:
     """Draw each branch, and the contacts of its pose, under a path of its own."""
     for step, cell in enumerate(row.cells):
         inside = canvas.inside(f"step{step}")
@@ -259,14 +152,14 @@ def _draw_steps(canvas: Canvas, row: _Row) -> None:
             draw_contacts(inside, pose_report(row.atlas, cell))
 
 
-def _glimpses(row: _Row) -> list[tuple[str, list[tuple[float, float]]]]:
+def _glimpses(row: Row) -> list[tuple[str, list[tuple[float, float]]]]:
     """When each branch is seen, and when the foot is."""
     steps = range(len(row.cells))
     found = [(f"step{step}", [row.ends(step)]) for step in steps]
     return [*found, ("foot", [row.ends(step) for step in steps if row.posed[step]])]
 
 
-def _tracks(row: _Row) -> list[Track]:
+def _tracks(row: Row) -> list[Track]:
     """How each phalanx stands on each branch."""
     foot = row.atlas.foot
     azimuths = np.array([finger.azimuth for finger in foot.fingers])
@@ -277,14 +170,14 @@ def _tracks(row: _Row) -> list[Track]:
     return [Track(*pair) for pair in pairs]
 
 
-def _span(row: _Row, step: int) -> Span:
+def _span(row: Row, step: int) -> Span:
     """What is shown from a step on."""
     region = row.regions[step]
     name = REGION_WORDS[region].upper()
     return Span(float(row.times[step]), name, REGION_PAINTS[region].css)
 
 
-def _labels(row: _Row) -> list[str]:
+def _labels(row: Row) -> list[str]:
     """Radius of each branch, as the clock shows it."""
     lengths = Lengths(row.atlas.foot.size)
     return [f"radius {lengths(row.radius(step))}" for step in range(len(row.cells))]
@@ -299,7 +192,7 @@ def _speeds() -> str:
     )
 
 
-def _caption(row: _Row, title: str, arm: float) -> str:
+def _caption(row: Row, title: str, arm: float) -> str:
     """What is shown, how to play it, and the colours."""
     lengths, last = Lengths(row.atlas.foot.size), len(row.cells) - 1
     height = "as for a foot at rest" if row.height is None else lengths(row.height)
@@ -324,7 +217,7 @@ def _caption(row: _Row, title: str, arm: float) -> str:
     )
 
 
-def _table(row: _Row) -> str:
+def _table(row: Row) -> str:
     """From which radius on what is shown, each with a button that jumps there."""
     lengths, body = Lengths(row.atlas.foot.size), ""
     for step in row.changes:
