@@ -110,7 +110,7 @@ def test_json_is_the_document(run):
 
 @pytest.mark.usefixtures("asked")
 def test_all_files_are_written_and_named(run, tmp_path):
-    names = {"png": "figure", "wrap-png": "wrap", "html": "scene", "npz": "arrays"}
+    names = {"npz": "arrays", "png": "figure", "wrap-png": "wrap", "html": "scene"}
     paths = {name: tmp_path / f"{name}.file" for name in names}
     options = [word for name in names for word in (f"--{name}", str(paths[name]))]
     result = run("atlas", *options, "--scene-height-mm", "-20")

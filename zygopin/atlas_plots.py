@@ -145,7 +145,11 @@ def plot_atlas_wrap(atlas: Atlas, path: Path | str) -> Path:
         else:
             words = "toes tangent at once, shown"
             figure.colorbar(drawn, ax=panel, label=words, ticks=range(count + 1))
-    title = f"{foot_title(atlas.foot)}\ngrey: the branch holds the foot's base"
+    words = (
+        "grey: the branch holds the foot's base; a contact more than 45° behind counts "
+        "as nearly all the way round"
+    )
+    title = f"{foot_title(atlas.foot)}\n{words}"
     figure.suptitle(title, fontsize=10)
     return save_figure(figure, path)
 

@@ -25,12 +25,13 @@ RADII, HEIGHTS = (0.02, 0.8), (-1.2, 0.0)
 feet can wrap, from beyond the toes' reach to the base."""
 
 _FILES = {
+    "npz": ("arrays", "Write answers and poses for NumPy and load_atlas."),
     "png": ("figure", "Draw the map, and poses on some of the branches."),
     "wrap_png": ("wrap", "Draw the largest wrap, and the number of toes, as a PNG."),
     "html": ("scene", "A scene through the radii of one height."),
-    "npz": ("arrays", "Write answers and poses for NumPy and load_atlas."),
 }
-"""What the command writes: by option, what it is called, and what the help says."""
+"""What the command writes: by option, what it is called, and what the help says. The
+arrays come first: whatever is wrong with a picture, the work is not lost."""
 
 
 def _file_options(command: Any) -> Any:
