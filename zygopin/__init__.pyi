@@ -2,6 +2,13 @@
 
 from zygopin.atlas import Atlas as Atlas
 from zygopin.atlas import branch_atlas as branch_atlas
+from zygopin.atlas_file import load_atlas as load_atlas
+from zygopin.atlas_file import save_atlas as save_atlas
+from zygopin.atlas_plots import plot_atlas as plot_atlas
+from zygopin.atlas_plots import plot_atlas_wrap as plot_atlas_wrap
+from zygopin.atlas_regions import Region as Region
+from zygopin.atlas_regions import region_map as region_map
+from zygopin.atlas_scene import export_atlas_scene as export_atlas_scene
 from zygopin.attack import Attack as Attack
 from zygopin.branch import Branch as Branch
 from zygopin.branch import branch_axis as branch_axis

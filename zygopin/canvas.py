@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import meshcat
 import numpy as np
@@ -28,11 +28,24 @@ class Canvas:
         recorder: What keeps the commands.
         origin: The point that becomes the viewer's origin [m], shape (3,).
         unit: The length that becomes 1 [m].
+        folder: What all paths start with, such as `step1/`.
     """
 
     recorder: Recorder
     origin: NDArray[np.float64]
     unit: float
+    folder: str = ""
+
+    def inside(self, folder: str) -> Canvas:
+        """The same canvas for what belongs together, under one path.
+
+        Args:
+            folder: The path.
+
+        Returns:
+            A canvas whose paths are below it.
+        """
+        return replace(self, folder=f"{self.folder}{folder}/")
 
     def ball(self, path: str, centre: ArrayLike, radius: float, paint: Paint) -> None:
         """Draw a ball.
@@ -146,7 +159,7 @@ class Canvas:
             size: Width of a dot [m].
             paint: Its look; dots are opaque.
         """
-        dots = Cloud(path, self._units(points), self._length(size), paint)
+        dots = Cloud(self.folder + path, self._units(points), self._length(size), paint)
         self._at(path).set_object(dots)
 
     def thread(self, path: str, points: NDArray[np.float64], paint: Paint) -> None:
@@ -157,7 +170,9 @@ class Canvas:
             points: The points [m], shape (N, 3).
             paint: Its look.
         """
-        self._at(path).set_object(Thread(path, self._units(points), paint))
+        self._at(path).set_object(
+            Thread(self.folder + path, self._units(points), paint)
+        )
 
     def block(
         self,
@@ -237,7 +252,7 @@ class Canvas:
         self._transform(path, _shifted(y_to_x, length / self.unit / 2))
 
     def _add(self, path: str, geometry: Geometry, paint: Paint) -> None:
-        self._at(path).set_object(Solid(path, geometry, paint))
+        self._at(path).set_object(Solid(self.folder + path, geometry, paint))
 
     def _transform(self, path: str, pose: NDArray[np.float64]) -> None:
         self._at(path).set_transform(np.round(pose, DECIMALS) + 0.0)
@@ -248,7 +263,7 @@ class Canvas:
         return units.astype(np.float32)
 
     def _at(self, path: str) -> meshcat.Visualizer:
-        return meshcat.Visualizer(window=self.recorder)[path]
+        return meshcat.Visualizer(window=self.recorder)[self.folder + path]
 
     def _length(self, metres: float) -> float:
         return round(metres / self.unit, DECIMALS)

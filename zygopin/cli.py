@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from zygopin.cli_atlas import atlas
 from zygopin.cli_branches import branches
 from zygopin.cli_design import design
 from zygopin.cli_reach import reach, validate
@@ -57,6 +58,7 @@ main.add_command(validate)
 main.add_command(strike)
 main.add_command(branches)
 main.add_command(touch)
+main.add_command(atlas)
 main.add_command(sweep)
 main.add_command(design)
 

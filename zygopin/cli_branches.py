@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 import click
 
 from zygopin.errors import ParameterError
+from zygopin.option_types import finger_pair
 from zygopin.options import MM, axis_options, foot_options, make_foot
 from zygopin.terminal import print_table, waiting
 
@@ -189,7 +190,7 @@ def _task(pair: str, levels: str, tied: bool, section: Any, **options: Any) -> _
 
     axis = branch_axis(options.pop("yaw"), options.pop("pitch"))
     x, foot = options.pop("x"), make_foot(**options)
-    fingers, values = _pair(pair), _levels(levels)
+    fingers, values = finger_pair(pair), _levels(levels)
     name, known = f"{foot.name}, {pair}, levels {levels}", control_set(values).tolist()
     if not tied:
         if section is not None:
@@ -210,14 +211,6 @@ def _task(pair: str, levels: str, tied: bool, section: Any, **options: Any) -> _
     title = f"{name}: {sum(Search.of(foot, fingers, values).lines)} equations"
     rest = partial(resting_branches, foot, fingers, values, section=reading, axis=axis)
     return _Task(f"{title}, branches under the base", known, reading, lambda: [rest()])
-
-
-def _pair(text: str) -> tuple[str | int, str | int]:
-    """The two fingers that an option names."""
-    names = [int(name) if name.isdecimal() else name for name in text.split(",")]
-    if len(names) != 2:
-        raise click.UsageError(f"--pair = {text} is not two fingers: try 1,3.")
-    return names[0], names[1]
 
 
 def _levels(text: str) -> int | tuple[float, ...]:

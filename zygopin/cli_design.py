@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from zygopin.option_types import Interval, Range
 from zygopin.options import DEGREES, POSITIVE_MM, Quantity, foot_options, make_foot
 from zygopin.terminal import print_table, waiting
 
 if TYPE_CHECKING:  # commands load what they use, so that --help is quick
     from zygopin.design import Design
-
-Interval = tuple[float, float]
 
 _FREE = {
     "rho": Quantity("numbers", 1.0),
@@ -26,41 +25,6 @@ _FREE = {
 """What may vary, as options call it."""
 
 _FILE = click.Path(path_type=Path)
-
-
-class Range(click.ParamType):  # type: ignore[type-arg,unused-ignore]
-    """LOW:HIGH, held in SI.
-
-    Args:
-        each: The type of both.
-    """
-
-    def __init__(self, each: Quantity) -> None:
-        self.each = each
-        self.name = "low:high"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> Interval:
-        """Parse a text.
-
-        Args:
-            value: What was typed.
-            param: The option.
-            ctx: The command's context.
-
-        Returns:
-            Both ends, the lesser first.
-        """
-        if isinstance(value, tuple):
-            return value
-        low, colon, high = value.partition(":")
-        if not colon:
-            self.fail(f"{value!r} is not LOW:HIGH, such as 3:20.", param, ctx)
-        ends = self.each.convert(low, param, ctx), self.each.convert(high, param, ctx)
-        if not ends[0] < ends[1]:
-            self.fail(f"{value!r} does not ascend: give LOW:HIGH.", param, ctx)
-        return ends
 
 
 class Bounds(click.ParamType):  # type: ignore[type-arg,unused-ignore]

@@ -22,12 +22,15 @@ try:
     from matplotlib.axes import Axes as Axes
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.cm import ScalarMappable as ScalarMappable
+    from matplotlib.collections import PolyCollection as PolyCollection
+    from matplotlib.colors import ListedColormap as ListedColormap
     from matplotlib.colors import LogNorm as LogNorm
     from matplotlib.colors import Normalize as Normalize
     from matplotlib.colors import to_hex as to_hex
     from matplotlib.figure import Figure as Figure
     from matplotlib.image import AxesImage as AxesImage
     from matplotlib.patches import Circle as Circle
+    from matplotlib.patches import Patch as Patch
     from matplotlib.patches import Polygon as Polygon
 except ImportError as error:
     raise MissingExtraError("matplotlib", "plots") from error

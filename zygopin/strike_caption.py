@@ -11,7 +11,7 @@ import numpy as np
 from zygopin.caption import Key, Lengths, foot_rows, legend, ratio, section
 from zygopin.obstacle import obstacle_noun
 from zygopin.obstacle_drawing import obstacle_rows
-from zygopin.playback import Span, clock_decimals, page_time
+from zygopin.playback import Span, clock_decimals, page_time, player_controls
 from zygopin.trajectory import EventKind, StrikeEvent, StrikeTrajectory
 
 EVENT_WORDS: dict[EventKind, str] = {
@@ -131,21 +131,10 @@ def controls(trajectory: StrikeTrajectory, spans: Sequence[Span]) -> str:
     Returns:
         HTML; hidden until the page's script shows it.
     """
-    start, end = (page_time(trajectory.times[index]) for index in (0, -1))
-    marks = sorted({_share(trajectory, event.time) for event in trajectory.events})
-    ticks = "".join(f'<span class="mark" style="left: {x:.3f}%"></span>' for x in marks)
-    return (
-        '<section id="player" aria-label="Playback" hidden>\n<div class="track">'
-        f'<div class="rail" style="background: {_rail(trajectory, spans)}" '
-        f'aria-hidden="true">{ticks}</div>'
-        f'<input id="time" type="range" min="{start}" max="{end}" step="any" '
-        f'value="{start}" aria-label="Time"></div>\n<div class="bar">'
-        '<button id="play" type="button" aria-keyshortcuts="Space">Play</button>'
-        '<output id="mode" for="time" aria-label="Mode"></output>'
-        '<span id="clock"></span>'
-        f'<select id="speed" aria-label="Speed">{_speeds(end - start)}</select></div>'
-        "\n</section>"
-    )
+    times = trajectory.times
+    speeds = _speeds(page_time(times[-1]) - page_time(times[0]))
+    marks = (event.time for event in trajectory.events)
+    return player_controls((times[0], times[-1]), spans, marks, speeds)
 
 
 def slowdown(duration: float) -> float:
@@ -173,22 +162,6 @@ def _speeds(duration: float) -> str:
         f"{'real time' if step == 1 else f'1/{step:.0f} speed'}</option>"
         for step in sorted(chosen)
     )
-
-
-def _rail(trajectory: StrikeTrajectory, spans: Sequence[Span]) -> str:
-    """The slider's background: each mode's stretch in its colour."""
-    starts = [_share(trajectory, span.start) for span in spans]
-    stops = ", ".join(
-        f"{span.colour} {start:.3f}% {end:.3f}%"
-        for span, start, end in zip(spans, starts, [*starts[1:], 100.0], strict=True)
-    )
-    return escape(f"linear-gradient(to right, {stops})")
-
-
-def _share(trajectory: StrikeTrajectory, time: float) -> float:
-    """How much of a strike is over at a time [%]."""
-    start, end = float(trajectory.times[0]), float(trajectory.times[-1])
-    return round(100 * (time - start) / max(end - start, 1e-9), 3)
 
 
 def _event_table(trajectory: StrikeTrajectory) -> str:

@@ -28,7 +28,7 @@ from zygopin.obstacle_drawing import (
     obstacle_extent,
     obstacle_paint,
 )
-from zygopin.playback import Playback, Span, Track
+from zygopin.playback import Playback, Span, Track, phalanx_frames
 from zygopin.scene import direction_pairs, keys
 from zygopin.solids import Paint
 from zygopin.strike_caption import controls, strike_caption
@@ -212,16 +212,10 @@ def phalanx_poses(
         T_world_phalanx [m], shape (n, P, 4, 4).
     """
     bones, base = trajectory.bones[frames], trajectory.base[frames]
-    along = bones[:, :, 1] - bones[:, :, 0]
-    along = along / np.linalg.norm(along, axis=-1, keepdims=True)
     azimuth = trajectory.azimuths[frames][:, trajectory.foot.finger_of_phalanx]
     flat = np.stack([-np.sin(azimuth), np.cos(azimuth), np.zeros_like(azimuth)], -1)
     across = flat @ np.swapaxes(base[:, :3, :3], -1, -2)
-    poses = np.zeros((*along.shape[:2], 4, 4))
-    poses[..., :3, :3] = np.stack([along, across, np.cross(along, across)], axis=-1)
-    poses[..., :3, 3] = bones[:, :, 0]
-    poses[..., 3, 3] = 1.0
-    return poses
+    return phalanx_frames(bones, across)
 
 
 def _tracks(trajectory: StrikeTrajectory, frames: NDArray[np.intp]) -> list[Track]:

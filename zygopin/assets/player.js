@@ -1,6 +1,6 @@
 
   // Plays the motion. The pose at any time follows from that time alone: parts turn and
-  // shift evenly between two frames.
+  // shift evenly between two frames, or stay until the next where frames have labels.
   const motion = scene.motion;
   const times = motion.times;
   const first = times[0];
@@ -15,6 +15,8 @@
     parts.map(([path, along]) => ({ object: found(path), along }))
   );
   const latecomers = motion.appearances.map(([path, time]) => ({ object: found(path), time }));
+
+  const glimpses = (motion.glimpses || []).map(([path, spans]) => ({ object: found(path), spans }));
 
   const element = (id) => document.getElementById(id);
   const button = element("play");
@@ -58,7 +60,7 @@
     const frame = latest(times, time);
     const next = Math.min(frame + 1, times.length - 1);
     const span = times[next] - times[frame];
-    const share = span > 0 ? (time - times[frame]) / span : 0;
+    const share = span > 0 && !motion.labels ? (time - times[frame]) / span : 0;
     tracks.forEach((parts, track) => {
       read(frame, track, here, turned);
       read(next, track, there, turning);
@@ -72,16 +74,21 @@
   }
 
   const inMilliseconds = (time) => (1e3 * time).toFixed(motion.decimals) + "\u00a0ms";
+  const clockText = (time) =>
+    motion.labels ? motion.labels[latest(times, time)] : inMilliseconds(time);
   const spanTimes = motion.spans.map(([time]) => time);
 
   function show(time) {
     now = Math.min(Math.max(time, first), last);
     move(now);
     for (const { object, time: from } of latecomers) object.visible = now >= from;
+    for (const { object, spans } of glimpses) {
+      object.visible = spans.some(([from, until]) => from <= now && now < until);
+    }
     const [, name, colour] = motion.spans[latest(spanTimes, now)];
     if (mode.textContent !== name) mode.textContent = name;
     mode.style.backgroundColor = colour;
-    clock.textContent = inMilliseconds(now);
+    clock.textContent = clockText(now);
     slider.value = now;
     slider.setAttribute("aria-valuetext", clock.textContent + ", " + name.toLowerCase());
     for (const { jump, time: from } of jumps) jump.classList.toggle("past", now >= from);

@@ -1,0 +1,98 @@
+"""Atlases as files: written once, read whenever they are looked at."""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from zygopin import checks
+from zygopin.archive import write_archive
+from zygopin.atlas import VERDICTS, Atlas
+from zygopin.branch_grid import BranchGrid
+from zygopin.errors import FileError, ZygopinError
+from zygopin.foot import Foot
+from zygopin.toe_contacts import Answer
+
+UNITS = {
+    **dict.fromkeys(("heights", "radii", "offset"), "m"),
+    **dict.fromkeys(("axis", "controls", "stable_controls", "toes"), "1"),
+    "wrap": "rad",
+    **dict.fromkeys(VERDICTS, "1"),
+}
+"""The arrays of a file, and their units."""
+
+_LINES = ("heights", "radii", "axis", "offset")
+_NO_ARCHIVE = (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile)
+_REMEDY = "name a file that save_atlas has written"
+
+
+def save_atlas(atlas: Atlas, path: Path | str) -> Path:
+    """Write an atlas for `load_atlas` and `numpy.load`.
+
+    The arrays have the names of the attributes of `Atlas` and `BranchGrid`;
+    `document` is a JSON text with the foot, the units of the arrays and the meaning of
+    the codes. The same atlas gives the same bytes.
+
+    Args:
+        atlas: The atlas.
+        path: The file, by custom `.npz`; its folders are made where they are missing.
+
+    Returns:
+        The path.
+
+    Raises:
+        ParameterError: It is no atlas.
+        FileError: The file cannot be written.
+    """
+    checks.instance("atlas", atlas, Atlas)
+    document = {
+        "foot": atlas.foot.to_mapping(),
+        "units": UNITS,
+        "answers": {str(int(code)): code.name.lower() for code in Answer},
+    }
+    arrays = {
+        name: getattr(atlas.grid if name in _LINES else atlas, name) for name in UNITS
+    }
+    text = json.dumps(document, sort_keys=True, allow_nan=False)
+    return write_archive(path, {**arrays, "document": text})
+
+
+def load_atlas(path: Path | str) -> Atlas:
+    """Read an atlas that `save_atlas` has written.
+
+    Args:
+        path: The file.
+
+    Returns:
+        The atlas.
+
+    Raises:
+        FileError: The file cannot be read, or holds no atlas.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            arrays = {name: archive[name] for name in (*UNITS, "document")}
+    except OSError as error:
+        problem = error.strerror or str(error)
+        raise FileError(path, f"cannot be read: {problem}", _REMEDY) from error
+    except _NO_ARCHIVE as error:
+        raise FileError(path, "is no atlas", _REMEDY) from error
+    try:
+        return _atlas(arrays)
+    except (ZygopinError, ValueError, KeyError, TypeError) as error:
+        raise FileError(path, f"is no atlas: {error}", _REMEDY) from error
+
+
+def _atlas(arrays: dict[str, np.ndarray[Any, Any]]) -> Atlas:
+    """The atlas that a file's arrays make."""
+    foot = Foot.from_mapping(json.loads(str(arrays.pop("document")))["foot"])
+    grid = BranchGrid(*(arrays.pop(name) for name in _LINES))
+    last = {"toes": (2,), "wrap": (2,)}
+    last |= dict.fromkeys(("controls", "stable_controls"), (foot.phalanx_count,))
+    for name, values in arrays.items():
+        checks.shaped(name, values, (*grid.shape, *last.get(name, ())))
+    return Atlas(foot, grid, **arrays)
