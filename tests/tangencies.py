@@ -142,9 +142,7 @@ def cases(seeds, *, solids=(True, False), most=5):
         for side in (PALM, BACK):
             for solid in solids:
                 made = edge_tangencies(view, rank, rng, side=side, solid=solid)
-                made = made.contacts(
-                    side=side, solid=solid, least=1e-3 * view[0].size
-                )
+                made = made.contacts(side=side, solid=solid, least=1e-3 * view[0].size)
                 if len(made.radius):
                     yield view, finger, rank, side, solid, made
 
