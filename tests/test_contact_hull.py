@@ -9,8 +9,10 @@ import pytest
 from axes import one_finger
 from tangencies import TOLERANCE, base_distance, cases, projected, tangencies
 
+from zygopin.branch_grid import BranchGrid
 from zygopin.contact_hull import Circles, Criterion, contact_possible
 from zygopin.projection import BACK, PALM
+from zygopin.tangent_poses import tangent_poses
 
 Y = np.array([0.0, 1.0, 0.0])
 
@@ -101,6 +103,21 @@ def test_contacts_farther_round_than_the_finger_is_long_are_ruled_out():
     found = contact_possible(finger, seen, 3, PALM, Criterion(1e-6))
     # At most 1.236 long, on radius 0.59: no more than 2.1 rad and some margin.
     assert found.tolist() == [True, True, False, False]
+
+
+@pytest.mark.parametrize("share", [0.9, 0.6])
+def test_a_toe_bent_close_around_a_branch_is_not_ruled_out(share):
+    # Chords of a circle hardly wider than the branch: no shorter way leads around.
+    foot = one_finger(9, math.pi / 60, rho=1.001, omega=0.5)
+    finger, step = projected(foot, Y), foot.lengths[0]
+    radius = step / (2 * math.tan(0.2))
+    grid = BranchGrid(-radius * 1.001, share * radius)
+    poses = tangent_poses(finger, grid, np.ones((9, 1, 1), bool))
+    for rank in np.flatnonzero(np.isfinite(poses.wrap[:, 0, 0])) + 1:
+        beyond = poses.wrap[rank - 1, 0] - 1e-6
+        seen = Circles(grid.centres(finger), grid.radii, beyond)
+        assert contact_possible(finger, seen, rank, PALM, Criterion(1e-6)).all()
+    assert np.nanmax(poses.wrap) > 2
 
 
 def test_ways_through_the_branch_are_ruled_out_only_if_solid():
