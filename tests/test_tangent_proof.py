@@ -52,7 +52,7 @@ def test_no_branch_with_a_contact_is_proved_out(first):
         if len(made.radius):
             grid, asked = tangent_cells(view, rank, made, rng)
             criterion = Criterion(TOLERANCE * view[0].size, solid)
-            left = unproved(finger, grid, asked, criterion, most_boxes=1000)
+            left = unproved(finger, grid, asked, criterion)
             assert np.array_equal(left, asked)
             tried += int(asked.sum())
     assert tried
@@ -69,9 +69,7 @@ def test_no_branch_with_a_contact_that_far_round_is_proved_out(first):
             criterion = Criterion(TOLERANCE * view[0].size, solid)
             beyond = np.full(grid.shape, 1.0)
             beyond[asked[rank - 1]] = one.wrap[0] - 10 ** rng.uniform(-6, -1)
-            assert unproved(
-                finger, grid, asked, criterion, beyond=beyond, most_boxes=500
-            )[asked].all()
+            assert unproved(finger, grid, asked, criterion, beyond=beyond)[asked].all()
 
 
 def test_bounds_on_the_wrap_hold_for_solid_contacts():
@@ -165,7 +163,7 @@ GRID = BranchGrid(np.linspace(0.4, -1.6, 7), np.linspace(0.05, 0.8, 5), (0.2, 1,
 def test_a_pose_and_a_proof_exclude_each_other(solid):
     finger, criterion = projected(FOOT, GRID.axis), Criterion(1e-6, solid)
     asked = everything(finger, GRID)
-    left = unproved(finger, GRID, asked, criterion, most_boxes=BUDGET)
+    left = unproved(finger, GRID, asked, criterion)
     found = np.zeros_like(left)
     for side in (PALM, BACK):
         poses = tangent_poses(finger, GRID, asked, side=side, solid=solid)
@@ -180,8 +178,7 @@ def test_what_enters_is_proved_out_only_if_solid():
     finger = projected(FOOT, GRID.axis)
     asked = everything(finger, GRID)
     loose, solid = (
-        unproved(finger, GRID, asked, Criterion(1e-6, flag), most_boxes=BUDGET)
-        for flag in (False, True)
+        unproved(finger, GRID, asked, Criterion(1e-6, flag)) for flag in (False, True)
     )
     assert not (solid & ~loose).any()
     poses = tangent_poses(finger, GRID, asked & ~solid, side=PALM, solid=False)
@@ -229,9 +226,7 @@ def test_contacts_not_far_enough_round_are_proved_out():
     poses = tangent_poses(finger, grid, asked, side=PALM)
     most = np.nanmax(poses.wrap, axis=0)
     for beyond, possible in ((most - 0.01, True), (most + 0.3, False)):
-        left = unproved(
-            finger, grid, asked, criterion, beyond=beyond, most_boxes=BUDGET
-        )
+        left = unproved(finger, grid, asked, criterion, beyond=beyond)
         assert (left.any(axis=0) == possible).all()
 
 
@@ -257,15 +252,6 @@ def test_mirrored_branches_are_proved_alike():
         asked = everything(finger, grid)
         answers.append(unproved(finger, grid, asked, Criterion(1e-6)))
     assert np.array_equal(*answers)
-
-
-def test_little_work_proves_little_and_never_too_much():
-    finger, criterion = projected(FOOT, GRID.axis), Criterion(1e-6)
-    asked = everything(finger, GRID)
-    much = unproved(finger, GRID, asked, criterion, most_boxes=BUDGET)
-    little = unproved(finger, GRID, asked, criterion, most_boxes=50)
-    assert (little | ~much).all()
-    assert little.sum() > much.sum()
 
 
 def test_of_a_finger_seen_edgewise_nothing_is_proved():

@@ -20,7 +20,8 @@ def unproved(
     grid: BranchGrid,
     asked: Booleans,
     criterion: Criterion,
-    beyond: Floats,
+    *,
+    beyond: Floats | None = None,
 ) -> Booleans:
     """Branches on which a finger may yet have a tangent phalanx.
 
@@ -30,7 +31,7 @@ def unproved(
         asked: The branches in question, for each phalanx, shape (K, H, R).
         criterion: What counts as a tangent phalanx.
         beyond: Only contacts count whose wrap, times the criterion's sense, is more
-            than this [rad], for each phalanx, shape (K, H, R); −∞ for any.
+            than this [rad], broadcast to shape (K, H, R); None: any.
 
     Returns:
         Those of the branches for which no proof was found, shape (K, H, R): on the
@@ -38,12 +39,13 @@ def unproved(
     """
     if finger.edgewise:
         return np.array(asked, dtype=bool)
+    bounds = np.broadcast_to(-np.inf if beyond is None else beyond, asked.shape)
     sides = (PALM,) if criterion.palmar else (PALM, BACK)
     cases = list(itertools.product(reversed(range(len(finger.lengths))), sides))
 
     def left(case: tuple[int, int]) -> Booleans:
         index, side = case
-        least = beyond[index]
+        least = bounds[index]
         near = asked[index] & ~_out_of_reach(finger, grid, index + 1, criterion, least)
         cells = np.nonzero(near)
         centre, radius = grid.centres(finger)[cells[0]], grid.radii[cells[1]]

@@ -163,7 +163,9 @@ class ToeSearch:
                 for rank in range(self.counts[members[0]])
             ]
             open_ = self._by_rank(members, asked)
-            found = unproved(leader, self.grid, open_, criterion, np.stack(least))
+            found = unproved(
+                leader, self.grid, open_, criterion, beyond=np.stack(least)
+            )
             for finger in members:
                 some = found[: self.counts[finger]].any(axis=0)
                 left[finger] = asked[finger] & some
