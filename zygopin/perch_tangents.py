@@ -1,0 +1,65 @@
+"""Grasps from toes laid on branches by the tangent search, where closing finds none."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from zygopin.clearance import Floats
+from zygopin.foot import Foot
+from zygopin.perch_column import Column
+from zygopin.perch_combinations import Combinations, combinations, opposed
+from zygopin.records import joined
+from zygopin.survey import AIMS
+from zygopin.tangent_poses import FARTHEST
+from zygopin.wrap import FingerPoses, given_poses
+
+
+def grasp_by_tangents(
+    column: Column, poses: list[FingerPoses]
+) -> tuple[int, list[FingerPoses], Combinations] | None:
+    """The best grasp in a column with toes that the tangent search has laid there.
+
+    Toes are laid as far round as they can be; while those that could grasp run into
+    each other or into others, they are laid at other angles.
+
+    Args:
+        column: The branches.
+        poses: Other poses of every finger, for the same branches.
+
+    Returns:
+        Index of the height, the poses there, and their combinations; None where no
+        grasp is found.
+    """
+    if not column.open.any():
+        return None
+    for aim in (FARTHEST, *AIMS):
+        laid = column.farthest if aim == FARTHEST else column.aimed(aim)
+        poses = [
+            joined([each, _laid(column, finger, laid[0][finger], laid[1][finger])])
+            for finger, each in enumerate(poses)
+        ]
+        found = []
+        for place in np.flatnonzero(column.open).tolist():
+            here = [each.take(each.place == place) for each in poses]
+            if _could_grasp(column.foot, here):
+                found.append((place, here, combinations(column.foot, here)))
+        if not found:
+            return None
+        best = max(found, key=lambda each: float(each[2].worth[0]))
+        if best[2].grasps[0]:
+            return best
+    return None
+
+
+def _laid(column: Column, finger: int, wrap: Floats, controls: Floats) -> FingerPoses:
+    """The poses that there are of one finger."""
+    places = np.flatnonzero(np.isfinite(wrap))
+    made = places, controls[places]
+    return given_poses(column.foot, finger, column.branches, made)
+
+
+def _could_grasp(foot: Foot, poses: list[FingerPoses]) -> bool:
+    """Whether some two toes would grasp if all others were away."""
+    return all(len(each.place) for each in poses) and any(
+        bool(opposed(poses[i], poses[j]).any()) for i, j in foot.opposable_pairs
+    )
