@@ -149,6 +149,7 @@ LAYERS = (
     "strike_plots",
     "design_plots",
     "output",
+    "perch_output",
     "reach_output",
     "branch_output",
     "strike_output",

@@ -17,6 +17,7 @@ from zygopin.foot import Finger, Foot
 from zygopin.grasp import check_grasp
 from zygopin.hold import check_hold
 from zygopin.perch import plan_perch
+from zygopin.perch_proof import Existence
 from zygopin.strength import Strength
 
 PARROT = Foot.preset("parrot")
@@ -174,7 +175,8 @@ def test_a_perch_beyond_all_toes_is_reached_by_none():
     z = parrots_perch().branch.centre[2]
     plan = plan_perch(PARROT, Branch(0.008, (0, 0.04, z), length=0.010), levels=4)
     assert not plan.report.touching.any()
-    assert plan.reason.startswith("no toe reaches the branch")
+    assert plan.existence is Existence.NONE
+    assert plan.reason.startswith("no grasp exists: no toe reaches the branch")
 
 
 # Reasons -------------------------------------------------------------------------
@@ -183,7 +185,9 @@ def test_a_perch_beyond_all_toes_is_reached_by_none():
 def reason(branch, foot=PARROT, **options):
     plan = plan_perch(foot, branch, levels=5, **options)
     assert_true(plan)
-    return plan.reason
+    proved = plan.existence is Existence.NONE
+    assert proved == plan.reason.startswith("no grasp exists")
+    return re.sub("^no grasp exists( at [0-9]+ heights tried)?: ", "", plan.reason)
 
 
 def test_a_branch_too_far_off_says_how_far():

@@ -18,7 +18,6 @@ from zygopin.foot import Foot
 from zygopin.grasp import GraspReport, check_branch, check_grasp
 from zygopin.perch_candidates import (
     Candidates,
-    Indices,
     laid_candidates,
     search_candidates,
 )
@@ -40,7 +39,7 @@ the nearest first."""
 BELOW = np.array([0.0, 0.0, -50.0])
 """A place for a branch whose height is still to be found, over the foot's size."""
 
-MODE_SHARE = 8
+MODE_SHARE = 3
 """Grasps that are compared for each set of tangent phalanges."""
 
 Value = Callable[[GraspReport], float]
@@ -131,7 +130,7 @@ def plan_perch(
         foot: The foot.
         branch: One branch, of any pose.
         find_height: Also move the branch along z to where it is grasped best. No grasp
-            is then said of a column of heights: those of the first round.
+            is then said of some heights over the range that is searched.
         levels: Angles tried at each joint, 2 to 33; the work grows as levels^K, so
             that fingers of many phalanges get fewer.
         prefer: What the best grasp has most of: `wrap`; `quality`, Ferrari and

@@ -21,6 +21,10 @@ from zygopin.perch_height import best_height
 from zygopin.perch_tangents import grasp_by_tangents
 from zygopin.wrap import FingerPoses
 
+FINE_LEVELS = 11
+"""Angles tried at each joint of a single branch that seems to have no grasp: a second
+or so of work. No multiple of the default's steps."""
+
 
 @dataclass(frozen=True, eq=False)
 class Candidates:
@@ -93,7 +97,10 @@ def search_candidates(
 def laid_candidates(
     column: Column, found: Candidates, levels: int
 ) -> Candidates | None:
-    """What the tangent search finds where closing toes found no grasp.
+    """What further searches find where closing toes found no grasp.
+
+    Toes are laid on the branch by the tangent search; on a single branch they are then
+    closed again, from a finer grid.
 
     Args:
         column: The branch at the heights in question.
@@ -105,11 +112,14 @@ def laid_candidates(
     """
     if not column.open.any():
         return None
-    poses = found.poses
-    if len(column.heights) > 1:
-        poses = all_poses(column.foot, column.branches, levels)
+    foot, poses, single = column.foot, found.poses, len(column.heights) == 1
+    if not single:
+        poses = all_poses(foot, column.branches, levels)
     grasp = grasp_by_tangents(column, poses)
-    if grasp is None:
-        return None
-    place, here, combined = grasp
-    return Candidates(column.foot, column.branches[place], here, combined)
+    if grasp is not None:
+        place, here, combined = grasp
+        return Candidates(foot, column.branches[place], here, combined)
+    if single:
+        fine = search_candidates(foot, found.branch, FINE_LEVELS, find_height=False)
+        return fine if len(fine.grasping) else None
+    return None

@@ -17,7 +17,7 @@ from zygopin.perch_height import lowered
 from zygopin.tangent_poses import FARTHEST
 from zygopin.tangent_proof import farthest_wrap
 from zygopin.toe_contacts import ToeSearch
-from zygopin.touch import touch_intervals
+from zygopin.touch import TouchIntervals, touch_intervals
 
 QUARTER = np.pi / 2
 """Least angle between two contacts of a grasp [rad]."""
@@ -130,13 +130,16 @@ class Column:
     def _touchable(self, asked: Booleans) -> Booleans:
         """Where every finger can keep out, and some two opposite toes can touch."""
         possible, asked = ~asked | ~self.endless, asked & self.endless
-        if asked.any():
-            found = touch_intervals(self.foot, self.branches[asked])
-            out = (self.radius - self.tolerance <= found.most[..., 1]).all(axis=-1)
-            near = self.radius + self.tolerance >= found.least[..., 0]
-            pairs = [near[..., i] & near[..., j] for i, j in self.foot.opposable_pairs]
-            possible[asked] = out & np.any(pairs, axis=0)
-        return possible
+        found = self.intervals
+        out = (self.radius - self.tolerance <= found.most[..., 1]).all(axis=-1)
+        near = self.radius + self.tolerance >= found.least[..., 0]
+        pairs = [near[..., i] & near[..., j] for i, j in self.foot.opposable_pairs]
+        return possible | (out & np.any(pairs, axis=0))
+
+    @cached_property
+    def intervals(self) -> TouchIntervals:
+        """The radii that each finger can touch, for the branches as endless ones."""
+        return touch_intervals(self.foot, self.branches)
 
     @cached_property
     def farthest(self) -> tuple[Floats, tuple[Floats, ...]]:
@@ -144,19 +147,20 @@ class Column:
 
         Wrap [rad], shape (F, H), NaN without a pose; controls of each finger, (H, K).
         """
-        return self.aimed(FARTHEST)
+        return self.aimed(FARTHEST, self.open)
 
-    def aimed(self, aim: float) -> tuple[Floats, tuple[Floats, ...]]:
+    def aimed(self, aim: float, where: Booleans) -> tuple[Floats, tuple[Floats, ...]]:
         """Poses of each finger, wrapped as near to an angle as they are found.
 
-        Only of fingers that have an opposite one, and at heights that are open.
+        Only of fingers that have an opposite one.
 
         Args:
             aim: The angle [rad].
+            where: At which heights, shape (H,).
 
         Returns:
             As for `farthest`.
         """
-        wanted = self.opposable[:, None, None] & self.open[:, None]
+        wanted = self.opposable[:, None, None] & where[:, None]
         wrap, controls = self.search.poses(wanted, aim=aim)
         return wrap[..., 0], tuple(each[:, 0] for each in controls)

@@ -26,8 +26,12 @@ VERTICAL = 1e-6
 """Squared sine of the slope to the vertical below which a branch has no height."""
 
 
+COLUMN = 9
+"""Heights of the column in which a grasp is searched further, and disproved."""
+
+
 def column_heights(foot: Foot, branch: Branch) -> Floats:
-    """The heights of the first round, which a proof for a column is about.
+    """Heights over the range that is searched, which a proof is about.
 
     Args:
         foot: The foot.
@@ -39,7 +43,7 @@ def column_heights(foot: Foot, branch: Branch) -> Floats:
     Raises:
         ParameterError: The branch is vertical.
     """
-    gaps = np.linspace(0.0, DEEPEST * foot.size, HEIGHTS)
+    gaps = np.linspace(0.0, DEEPEST * foot.size, COLUMN)
     return np.asarray(_highest(foot, branch) - gaps)
 
 

@@ -20,7 +20,7 @@ def grasp_by_tangents(
     """The best grasp in a column with toes that the tangent search has laid there.
 
     Toes are laid as far round as they can be; while those that could grasp run into
-    each other or into others, they are laid at other angles.
+    each other or into others on a single branch, they are laid at other angles.
 
     Args:
         column: The branches.
@@ -30,25 +30,35 @@ def grasp_by_tangents(
         Index of the height, the poses there, and their combinations; None where no
         grasp is found.
     """
-    if not column.open.any():
-        return None
-    for aim in (FARTHEST, *AIMS):
-        laid = column.farthest if aim == FARTHEST else column.aimed(aim)
+    where, foot = column.open, column.foot
+    poses = [joined([each, _aloof(column, i)]) for i, each in enumerate(poses)]
+    aims = (FARTHEST, *AIMS) if len(where) == 1 else (FARTHEST,)
+    for aim in aims:
+        laid = column.farthest if aim == FARTHEST else column.aimed(aim, where)
         poses = [
-            joined([each, _laid(column, finger, laid[0][finger], laid[1][finger])])
-            for finger, each in enumerate(poses)
+            joined([each, _laid(column, i, laid[0][i], laid[1][i])])
+            for i, each in enumerate(poses)
         ]
         found = []
-        for place in np.flatnonzero(column.open).tolist():
+        for place in np.flatnonzero(where).tolist():
             here = [each.take(each.place == place) for each in poses]
-            if _could_grasp(column.foot, here):
-                found.append((place, here, combinations(column.foot, here)))
+            if _could_grasp(foot, here):
+                found.append((place, here, combinations(foot, here)))
         if not found:
             return None
         best = max(found, key=lambda each: float(each[2].worth[0]))
         if best[2].grasps[0]:
             return best
+        where = np.isin(np.arange(len(where)), [place for place, _, _ in found])
     return None
+
+
+def _aloof(column: Column, finger: int) -> FingerPoses:
+    """The poses that keep a finger farthest from the branches."""
+    part = column.foot.finger_slices[column.foot.fingers[finger].name]
+    controls = column.intervals.most_controls[:, part]
+    made = np.arange(len(controls)), controls
+    return given_poses(column.foot, finger, column.branches, made)
 
 
 def _laid(column: Column, finger: int, wrap: Floats, controls: Floats) -> FingerPoses:
