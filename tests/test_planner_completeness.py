@@ -1,4 +1,4 @@
-"""The planner finds grasps that exist; where it says none exists, no search finds one."""
+"""The planner finds grasps that exist; where it says none exists, none is found."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def planted(seed):
         chosen = [
             rng.choice(np.flatnonzero(foot.finger_of_phalanx == f)) for f in (i, j)
         ]
-        found = solved(foot, bones[:, chosen], foot.radii[chosen])
+        found = solved(bones[:, chosen], foot.radii[chosen])
         good = (found[:, 1] > 0.08 * SIZE) & (found[:, 1] < SIZE)
         good &= found[:, 0] < -found[:, 1] - foot.radii.max()
         for index in np.flatnonzero(good):
@@ -71,7 +71,7 @@ def planted(seed):
     return None
 
 
-def solved(foot, bones, skin):
+def solved(bones, skin):
     """Height and radius of the branch across the foot tangent to two bones, (N, 2)."""
     flat = bones[..., [0, 2]]
     step = flat[:, :, 1] - flat[:, :, 0]

@@ -99,8 +99,8 @@ def laid_candidates(
 ) -> Candidates | None:
     """What further searches find where closing toes found no grasp.
 
-    Toes are laid on the branch by the tangent search; on a single branch they are then
-    closed again, from a finer grid.
+    Toes are laid on the branch by the tangent search; on a single endless branch they
+    are then closed again, from a finer grid.
 
     Args:
         column: The branch at the heights in question.
@@ -119,7 +119,7 @@ def laid_candidates(
     if grasp is not None:
         place, here, combined = grasp
         return Candidates(foot, column.branches[place], here, combined)
-    if single:
+    if single and column.endless[0]:
         fine = search_candidates(foot, found.branch, FINE_LEVELS, find_height=False)
         return fine if len(fine.grasping) else None
     return None

@@ -134,7 +134,7 @@ class Column:
         out = (self.radius - self.tolerance <= found.most[..., 1]).all(axis=-1)
         near = self.radius + self.tolerance >= found.least[..., 0]
         pairs = [near[..., i] & near[..., j] for i, j in self.foot.opposable_pairs]
-        return possible | (out & np.any(pairs, axis=0))
+        return np.asarray(possible | (out & np.any(pairs, axis=0)))
 
     @cached_property
     def intervals(self) -> TouchIntervals:

@@ -125,5 +125,7 @@ class _Proof:
     def _opposed(self, i: int, j: int) -> bool:
         """Whether two fingers flex around the branch in opposite senses."""
         frames = (self.column.search.fingers[k].frame for k in (i, j))
-        senses = [float(np.cross(*frame) @ self.column.grid.axis) for frame in frames]
+        senses = [
+            float(np.linalg.det([*frame, self.column.grid.axis])) for frame in frames
+        ]
         return bool(senses[0] * senses[1] < 0)
