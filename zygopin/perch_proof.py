@@ -117,7 +117,7 @@ class _Proof:
                 beyond=beyond[index][:, None],
                 most_boxes=BOXES,
             )
-            left[index] |= found.any(axis=0)[:, 0]
+            left[index] |= np.asarray(found.any(axis=0))[:, 0]
             if all_needed:
                 settled |= left[index]
         return left
