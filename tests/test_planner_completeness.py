@@ -240,7 +240,7 @@ def test_rows_and_documents_name_the_tangent_phalanges():
 
 
 def test_the_command_lists_all_ways_within_eighty_columns():
-    command = ["perch", "--radius-mm", "24", "--height-mm", "-25", "--all"]
+    command = ["perch", "--radius-mm", "24", "--height-mm", "-26", "--all"]
     result = CliRunner().invoke(main, command)
     assert result.exit_code == 0
     assert "ways to grasp it found" in result.stdout
