@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.strategies import reals
-from zygopin import Finger, Foot, plan_perch
+from zygopin import Finger, Foot, search_perch
 from zygopin.errors import ParameterError
 from zygopin.graspable import GraspableRadii, graspable_radii, true_intervals
 from zygopin.rest import resting_branch
@@ -73,7 +73,7 @@ def test_ends_part_what_is_grasped_from_what_is_not():
     assert 0.002 < high < 0.1
 
     def grasped(radius):
-        return plan_perch(SMALL, resting_branch(SMALL, radius), levels=4).grasping
+        return search_perch(SMALL, resting_branch(SMALL, radius), levels=4).grasping
 
     assert grasped(high)
     assert grasped((low + high) / 2)

@@ -88,7 +88,10 @@ from zygopin.paths import SRDF_PATH as SRDF_PATH
 from zygopin.paths import URDF_PATH as URDF_PATH
 from zygopin.paths import XACRO_PATH as XACRO_PATH
 from zygopin.perch import PerchPlan as PerchPlan
+from zygopin.perch import perch_solutions as perch_solutions
 from zygopin.perch import plan_perch as plan_perch
+from zygopin.perch import search_perch as search_perch
+from zygopin.perch_proof import Existence as Existence
 from zygopin.placement import Placement as Placement
 from zygopin.poses import named_poses as named_poses
 from zygopin.presets import preset_names as preset_names

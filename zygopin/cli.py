@@ -33,6 +33,7 @@ from zygopin.terminal import print_table, waiting
 
 if TYPE_CHECKING:  # commands load what they use, so that --help is quick
     from zygopin.grasp import GraspReport
+    from zygopin.perch import PerchPlan
     from zygopin.strength import Strength
 
 _HTML = click.option(
@@ -93,11 +94,12 @@ def urdf(output: Path, mjcf: bool, glb: bool, as_json: bool, **foot: Any) -> Non
 @click.option("--height-mm", "height", type=MM, help="z of the centre; else searched.")
 @click.option(
     "--prefer",
-    type=click.Choice(["wrap", "quality", "pull"]),
+    type=click.Choice(["wrap", "quality", "pull", "margin", "opposition"]),
     default="wrap",
     show_default=True,
     help="What the best grasp has most of.",
 )
+@click.option("--all", "every", is_flag=True, help="List all ways to grasp it found.")
 @hold_options
 @_HTML
 @_JSON
@@ -107,9 +109,6 @@ def perch(
     /,
     radius: float,
     height: float | None,
-    prefer: Any,
-    friction: float,
-    toe_force: float,
     html: Path | None,
     as_json: bool,
     **options: Any,
@@ -117,11 +116,13 @@ def perch(
     """Find controls that grasp a branch, check them, show the scene.
 
     Without a height, the branch is placed under the foot where it is grasped best.
-    Exit status 0: a feasible grasp; 1: none found, with the reason; 2: bad input.
+    Exit status 0: a feasible grasp; 1: none found, with the reason, which says so where
+    it is proved that none exists; 2: bad input.
     """
-    from zygopin.perch import plan_perch
+    from zygopin.perch import perch_solutions, plan_perch
 
-    strength = make_strength(friction, toe_force)
+    strength = make_strength(options.pop("friction"), options.pop("toe_force"))
+    prefer, every = options.pop("prefer"), options.pop("every")
     pose = {name: options.pop(name) for name in ("yaw", "pitch", "length")}
     foot = make_foot(**options)
     search = height is None
@@ -129,10 +130,11 @@ def perch(
     start = -2 * (radius + foot.size) / level if height is None else height
     branch = make_branch(radius, start, **pose)
     with waiting("planning", quiet=as_json):
-        plan = plan_perch(
-            foot, branch, find_height=search, prefer=prefer, strength=strength
-        )
-    _show(_Shown(plan.report, strength, plan.reason), html, as_json)
+        wanted: Any = {"find_height": search, "prefer": prefer, "strength": strength}
+        plans = perch_solutions(foot, branch, **wanted) if every else ()
+        plan = plans[0] if plans else plan_perch(foot, branch, **wanted)
+        shown = _Shown(plan.report, strength, plan.reason, plans, plan.existence.value)
+    _show(shown, html, as_json)
     context.exit(0 if plan.grasping else 1)
 
 
@@ -219,11 +221,15 @@ class _Shown:
         report: The verdicts.
         strength: How hard the toes press, and their friction.
         reason: Why it is no feasible grasp; None where it is one.
+        solutions: All the ways to grasp, where they were asked for.
+        existence: Of a plan, whether there is a grasp at all.
     """
 
     report: GraspReport
     strength: Strength
     reason: str | None
+    solutions: tuple[PerchPlan, ...] = ()
+    existence: str | None = None
 
 
 def _show(shown: _Shown, html: Path | None, as_json: bool) -> None:
@@ -242,11 +248,14 @@ def _show(shown: _Shown, html: Path | None, as_json: bool) -> None:
         export_scene(report, html, hold=hold)
     if as_json:
         document = output.report_document(report, difference, hold, shown.reason)
+        _add_plan(document, shown)
         click.echo(json.dumps(document, indent=2, allow_nan=False))
     else:
         _print_report(report, output.verdict_lines(report, difference))
         for line in output.hold_lines(hold):
             click.echo(line)
+        if shown.solutions:
+            _print_solutions(shown.solutions)
         if html is not None:
             click.echo(f"scene: {html}")
     if shown.reason is not None:
@@ -262,6 +271,27 @@ def _print_report(report: GraspReport, verdicts: list[str]) -> None:
     print_table(headings, output.report_rows(report), "lrrrrl")
     for line in verdicts:
         click.echo(line)
+
+
+def _add_plan(document: dict[str, Any], shown: _Shown) -> None:
+    """What a plan's document says beside the report."""
+    if shown.existence is not None:
+        document["verdict"]["existence"] = shown.existence
+    if shown.solutions:
+        from zygopin.perch_output import solution_documents
+
+        document["solutions"] = solution_documents(shown.solutions)
+
+
+def _print_solutions(plans: tuple[PerchPlan, ...]) -> None:
+    """The table of all ways to grasp."""
+    from zygopin import perch_output
+
+    click.echo(f"{len(plans)} ways to grasp it found, the best first:")
+    rows = perch_output.solution_rows(plans[: perch_output.LISTED])
+    print_table(perch_output.HEADINGS, rows, "rlrrr")
+    if len(plans) > perch_output.LISTED:
+        click.echo(f"the first {perch_output.LISTED} are listed: --json gives all")
 
 
 def _list_presets() -> None:

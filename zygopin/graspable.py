@@ -11,7 +11,7 @@ import numpy as np
 from zygopin import checks
 from zygopin.errors import ParameterError
 from zygopin.foot import Foot
-from zygopin.perch import LEVELS, plan_perch
+from zygopin.perch import LEVELS, search_perch
 from zygopin.rest import resting_branch
 
 SAMPLES = 33
@@ -78,7 +78,7 @@ def graspable_radii(
     """The radii of perches that a foot at rest grasps, as a union of intervals.
 
     The foot sits on the perch, which is level, across it, and straight below the base
-    (`resting_branch`); a radius counts where `plan_perch` finds a feasible grasp.
+    (`resting_branch`); a radius counts where `search_perch` finds a feasible grasp.
     Radii at equal ratios are tried, then each change between two neighbours is
     bisected. What changes twice between two neighbours is not seen: take more samples.
 
@@ -103,7 +103,7 @@ def graspable_radii(
     wraps: dict[float, float] = {}
 
     def grasped(radius: float) -> bool:
-        plan = plan_perch(foot, resting_branch(foot, radius), levels=levels)
+        plan = search_perch(foot, resting_branch(foot, radius), levels=levels)
         wraps[radius] = float(plan.wrap.max()) if plan.grasping else 0.0
         return plan.grasping
 

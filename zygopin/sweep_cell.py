@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from zygopin.errors import ZygopinError
 from zygopin.foot import Foot
 from zygopin.grasp import GraspReport
-from zygopin.perch import PerchPlan, plan_perch
+from zygopin.perch import PerchPlan, search_perch
 from zygopin.sweep_grid import FOUND, SweepGrid, Value, cell_branch, cell_foot
 
 CHUNK = 8
@@ -193,7 +193,7 @@ def _planned(foot: Foot, values: Mapping[str, Value], levels: int) -> PerchPlan 
     try:
         branch = cell_branch(changed, values)
         find = values["height"] == FOUND
-        return plan_perch(changed, branch, find_height=find, levels=levels)
+        return search_perch(changed, branch, find_height=find, levels=levels)
     except ZygopinError:
         return "invalid_branch"
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from zygopin.branch import Branch
 from zygopin.clearance import Floats, branch_clearance, dot
 from zygopin.foot import Foot
-from zygopin.grasp import classify
+from zygopin.grasp import Criteria, classify
 from zygopin.illinois import crossings
 
 Booleans = NDArray[np.bool_]
@@ -123,6 +123,24 @@ def finger_poses(
     straight = np.zeros((len(lost), chain.count))
     controls = np.concatenate([partial.controls, straight])
     return _varied(chain, _evaluated(chain, place, controls, tolerance))
+
+
+def given_poses(
+    foot: Foot, finger: int, branches: Branch, poses: tuple[Indices, Floats]
+) -> FingerPoses:
+    """Contacts of given poses of one finger, whether or not they enter.
+
+    Args:
+        foot: The foot.
+        finger: Index of the finger.
+        branches: Branches, batch shape (B,).
+        poses: Index of each pose's branch, shape (N,), and its controls, (N, K).
+
+    Returns:
+        The poses.
+    """
+    chain, tolerance = _Chain.of(foot, finger, branches), Criteria().metres(foot)
+    return _evaluated(chain, *poses, tolerance)
 
 
 @dataclass(frozen=True)
