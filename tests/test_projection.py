@@ -112,7 +112,7 @@ def test_wraps_by_hand():
     # The base lies above the centre -i; clockwise from there is flexion's sense.
     normal = np.array([1j, 1.0, -1j, -1.0, np.exp(1j * (math.pi / 2 + 0.7)), -1 + 1j])
     wrap = wrap_angle(3 * normal, np.full(6, -2j))
-    expected = [0, math.pi / 2, math.pi, 3 * math.pi / 2, -0.7, BEHIND]
+    expected = [0, math.pi / 2, math.pi, -math.pi / 2, -0.7, -math.pi / 4]
     assert wrap == pytest.approx(expected)
 
 

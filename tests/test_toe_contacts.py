@@ -94,7 +94,7 @@ def test_what_is_possible_is_what_some_phalanx_leaves(search):
 
 
 def test_poses_wrapped_farther_refute_no_bound(search):
-    wrap, _ = search.poses(WANTED)
+    wrap = search.poses(WANTED).wrap
     bound = np.where(np.isfinite(wrap), wrap - 1e-3, 9.0)
     left = search.possible(WANTED & np.isfinite(wrap), TIGHT, bound)
     assert np.array_equal(left, np.isfinite(wrap))

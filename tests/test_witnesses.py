@@ -8,6 +8,7 @@ import pytest
 from zygopin import Foot, check_grasp
 from zygopin.branch_grid import BranchGrid
 from zygopin.grasp import Criteria
+from zygopin.tangent_poses import Aim
 from zygopin.toe_contacts import ToeSearch
 from zygopin.touch import touch_intervals
 from zygopin.witnesses import MERITS, Witnesses, opposing, touched
@@ -28,11 +29,12 @@ def poses():
     away = touch_intervals(FOOT, GRID.at(*cells)).most_controls
     search, made = ToeSearch(FOOT, GRID), [away]
     for aim in (9.0, 1.2, 0.5):
-        wrap, controls = search.poses(wanted, aim=aim)
+        laid = search.poses(wanted, aim=Aim(aim))
+        found, controls = laid.found, laid.controls
         for skip in (0, 1, 2):
             whole = away.copy()
             for index, part in enumerate(FOOT.finger_slices.values()):
-                mine = np.isfinite(wrap[index][cells]) & (index % 3 != skip - 1)
+                mine = found[index][cells] & (index % 3 != skip - 1)
                 pose = controls[index][cells]
                 whole[:, part] = np.where(mine[:, None], pose, away[:, part])
             made.append(whole)

@@ -14,7 +14,7 @@ from zygopin.clearance import Floats
 from zygopin.foot import Foot
 from zygopin.grasp import Criteria
 from zygopin.perch_height import lowered
-from zygopin.tangent_poses import FARTHEST
+from zygopin.tangent_poses import FARTHEST, Aim
 from zygopin.tangent_proof import farthest_wrap
 from zygopin.toe_contacts import ToeSearch
 from zygopin.touch import TouchIntervals, touch_intervals
@@ -162,5 +162,6 @@ class Column:
             As for `farthest`.
         """
         wanted = self.opposable[:, None, None] & where[:, None]
-        wrap, controls = self.search.poses(wanted, aim=aim)
+        laid = self.search.poses(wanted, aim=Aim(aim))
+        wrap, controls = laid.wrap, laid.controls
         return wrap[..., 0], tuple(each[:, 0] for each in controls)

@@ -1,8 +1,8 @@
 """Proof that no grasp of a branch exists, at each of some heights.
 
-What bounds rule out (`perch_column`) costs little. The rest is branch and bound over
-the controls (`tangent_proof`): no two opposite toes are tangent, or none a quarter turn
-apart.
+What bounds rule out (`perch_column`) costs little. The rest is a search for contacts
+(`tangent_proof`): no two opposable toes are tangent with their palms, or not a quarter
+turn apart.
 """
 
 from __future__ import annotations
@@ -13,13 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin.clearance import Floats
+from zygopin.contact_hull import Criterion
 from zygopin.perch_column import CLEAR, QUARTER, Column
+from zygopin.projection import BEHIND
 from zygopin.survey import SHARE
-from zygopin.tangent_proof import Criterion, unproved
-
-BOXES = 15_000
-"""Boxes of controls that are looked at for each phalanx and side: about a second for
-all of a foot's, where no proof is found."""
+from zygopin.tangent_proof import unproved
 
 Booleans = NDArray[np.bool_]
 
@@ -31,7 +29,7 @@ class Existence(Enum):
     """There is one: the plan."""
 
     NONE = "none"
-    """There is none, which is proved, with contacts within the tolerance."""
+    """There is none with the toes' palms, which is proved, within the tolerance."""
 
     UNDECIDED = "undecided"
     """None was found, and it is not proved that there is none."""
@@ -73,32 +71,43 @@ class _Proof:
         unlaid = np.isnan(wrap) & open_ & self.column.opposable[:, None]
         nowhere = np.full(wrap.shape, -np.inf)
         tangent = ~np.isnan(wrap) | self._possible(unlaid, nowhere)
-        pairs = {(i, j): open_ & tangent[i] & tangent[j] for i, j in self.pairs}
+        left = np.zeros_like(open_)
+        for sense in (1, -1):
+            left |= self._in_sense(open_ & ~left, tangent, sense)
+        return np.asarray(open_ & ~left)
+
+    def _in_sense(self, open_: Booleans, tangent: Booleans, sense: int) -> Booleans:
+        """Heights at which two toes may yet be a quarter turn apart, far or back."""
+        wrap = np.where(tangent, self.column.farthest[0], np.nan)
+        wrap = np.where(np.isnan(wrap), BEHIND, sense * wrap)
+        if sense < 0:
+            wrap = np.maximum(wrap, BEHIND / 2)
         hopeless = np.zeros_like(open_)
         beyond = np.full(wrap.shape, np.inf)
-        for (i, j), both in pairs.items():
+        for i, j in self.pairs:
+            both = open_ & tangent[i] & tangent[j]
             lack = QUARTER - wrap[i] - wrap[j]
-            # Not so where a wrap is unknown: comparisons with NaN are false.
             provable = both & (lack > CLEAR) & self._opposed(i, j)
+            provable |= both & (sense < 0) & (lack >= 0) & self._opposed(i, j)
             hopeless |= both & ~provable
             for finger in (i, j):
                 least = np.where(provable, wrap[finger] + SHARE * lack, np.inf)
                 beyond[finger] = np.minimum(beyond[finger], least)
         asked = np.isfinite(beyond) & open_ & ~hopeless
-        left = self._possible(asked, beyond, all_needed=True)
-        return np.asarray(open_ & ~hopeless & ~left.any(axis=0))
+        left = self._possible(asked, beyond, sense=sense)
+        return np.asarray(open_ & (hopeless | left.any(axis=0)))
 
-    def _possible(
-        self, asked: Booleans, beyond: Floats, *, all_needed: bool = False
-    ) -> Booleans:
+    def _possible(self, asked: Booleans, beyond: Floats, *, sense: int = 0) -> Booleans:
         """Fingers and heights at which such a contact is not disproved, (F, H).
 
         Args:
             asked: Where it is asked, shape (F, H).
-            beyond: How far round the contact is to lie at least [rad], shape (F, H).
-            all_needed: Ask no more about a height at which one finger is left.
+            beyond: How far round, or back, the contact lies at least [rad], (F, H).
+            sense: 1 for far round, −1 for back, and no more is asked about a height
+                at which one finger is left; 0 for any contact.
         """
-        criterion, grid = Criterion(self.column.tolerance), self.column.grid
+        tolerance, grid = self.column.tolerance, self.column.grid
+        criterion = Criterion(tolerance, palmar=True, sense=sense or 1)
         fingers = self.column.search.fingers
         left, settled = np.zeros_like(asked), np.zeros(asked.shape[1], dtype=bool)
         # Short ones first: their proofs take a few boxes, and may settle a height.
@@ -110,15 +119,10 @@ class _Proof:
                 continue
             ranks = np.broadcast_to(open_, (len(finger.lengths), *open_.shape))
             found = unproved(
-                finger,
-                grid,
-                ranks,
-                criterion,
-                beyond=beyond[index][:, None],
-                most_boxes=BOXES,
+                finger, grid, ranks, criterion, beyond=beyond[index][:, None]
             )
             left[index] |= np.asarray(found.any(axis=0))[:, 0]
-            if all_needed:
+            if sense:
                 settled |= left[index]
         return left
 
