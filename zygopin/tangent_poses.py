@@ -7,7 +7,6 @@ Branches next to one another take poses from each other.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import product
@@ -36,6 +35,9 @@ FEW = 1000
 
 SAMPLES = 700
 """Poses of a regular grid that are tried on each branch of the coarsest search."""
+
+TOGETHER = 8192
+"""Poses that are tried in one call."""
 
 STEPS = (0.2, 0.1, 0.05, 0.02, 0.01, 0.003)
 """Sizes of the random steps by which poses are improved, in controls."""
@@ -262,9 +264,11 @@ class _Search:
         places = self._places(stride)
         table = _Table.empty((len(places[0]), len(places[1])), self.rank)
         where = self._where(places)
-        for free in _regular(self.rank - 1, self.quest.effort):
-            tried = np.broadcast_to(free, (len(where[0]), self.rank - 1))
-            self._offer(table, places, where, tried)
+        grid = _regular(self.rank - 1, self.quest.effort)
+        # So many at once that the arrays stay in the cache and calls cost little.
+        at_once = max(1, TOGETHER // max(len(where[0]), 1))
+        for start in range(0, len(grid), at_once):
+            self._offer(table, places, where, grid[start : start + at_once, None])
         return table, places
 
     def _refined(
@@ -326,30 +330,43 @@ class _Search:
         where: tuple[Indices, ...],
         free: Floats,
     ) -> None:
-        """Keep the poses that are better than what the table has."""
+        """Keep the poses that are better than what the table has.
+
+        Args:
+            table: The table.
+            places: Rows and columns of the grid that it is for.
+            where: Its entries that poses are for, shape (n,) each.
+            free: Controls before the closing joint, shape (n, k − 1), or a number of
+                sets of them for all entries, shape (s, 1, k − 1).
+        """
         rows, columns = places[0][where[0]], places[1][where[1]]
         centre = self.grid.centres(self.finger)[rows]
         radius = self.grid.radii[columns]
-        made = lay_on(
-            self.finger, free, centre, radius, self.quest.side, self.quest.solid
-        )
+        side, solid = self.quest.side, self.quest.solid
+        free = np.broadcast_to(free, (*free.shape[:-2], len(rows), free.shape[-1]))
+        made = lay_on(self.finger, free, centre, radius, side, solid)
         excess = made.excess / self.finger.lengths[0]
-        score = np.where(
-            excess <= ROUNDING, -np.abs(made.wrap - self.quest.aim), -NOWHERE - excess
+        missed = np.abs(made.wrap - self.quest.aim)
+        score = np.where(excess <= ROUNDING, -missed, -NOWHERE - excess)
+        wrap, closing = (
+            np.broadcast_to(x, score.shape) for x in (made.wrap, made.control)
         )
+        if score.ndim == 2:
+            best = np.argmax(score, axis=0), np.arange(len(rows))
+            score, wrap, closing, free = (
+                each[best] for each in (score, wrap, closing, free)
+            )
         better = score > table.score[where]
         kept = tuple(axis[better] for axis in where)
         table.score[kept] = score[better]
-        table.wrap[kept] = made.wrap[better]
+        table.wrap[kept] = wrap[better]
         table.free[kept] = free[better]
-        table.closing[kept] = made.control[better]
+        table.closing[kept] = closing[better]
 
 
-def _regular(count: int, effort: int) -> Iterator[Floats]:
-    """A regular grid of controls, of at most about `SAMPLES` points."""
+def _regular(count: int, effort: int) -> Floats:
+    """A regular grid of controls, of at most about `SAMPLES` points, (s, count)."""
     if count == 0:
-        return iter([np.zeros(0)])
+        return np.zeros((1, 0))
     most = int(min(max((SAMPLES * effort) ** (1 / count) + 1e-9, 2), 33))
-    return (
-        np.array(each) for each in product(np.linspace(0.0, 1.0, most), repeat=count)
-    )
+    return np.array(list(product(np.linspace(0.0, 1.0, most), repeat=count)))
