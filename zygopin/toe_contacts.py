@@ -204,10 +204,3 @@ class ToeSearch:
             and abs(origin - origin_too) <= 1e-12 * size
             and abs(step - step_too) <= 1e-12
         )
-
-
-def decided(answer: Codes, wanted: Booleans) -> float:
-    """Share of the branches in question with a yes or no."""
-    count = int(wanted.sum())
-    known = (answer == Answer.YES) | (answer == Answer.NO)
-    return float((known & wanted).sum() / count) if count else 1.0
