@@ -41,6 +41,7 @@ LAYERS = (
     "kinematics",
     "projection",
     "branch_grid",
+    "laid_contact",
     "tangent_poses",
     "contact_hull",
     "tangent_proof",

@@ -13,8 +13,9 @@ from zygopin import Branch
 from zygopin.branch_grid import BranchGrid
 from zygopin.clearance import branch_clearance
 from zygopin.kinematics import forward_kinematics
+from zygopin.laid_contact import lay_on
 from zygopin.projection import BACK, PALM
-from zygopin.tangent_poses import Aim, TangentPoses, lay_on, tangent_poses
+from zygopin.tangent_poses import Aim, TangentPoses, tangent_poses
 
 Y = np.array([0.0, 1.0, 0.0])
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
+from zygopin.laid_contact import segment_gap
 from zygopin.projection import BEHIND, Complexes, Floats, ProjectedFinger
 
 Booleans = NDArray[np.bool_]
@@ -238,7 +239,7 @@ class _Search:
             )
             if self.criterion.solid:
                 skin = radius + finger.radii[rank - 2] - tolerance
-                left &= _apart(before - centre, -step) + moves.sum(axis=0) >= skin
+                left &= segment_gap(before - centre, -step) + moves.sum(axis=0) >= skin
         return left, moves
 
     def _counts(self, ranges: _Ranges) -> Booleans:
@@ -304,10 +305,3 @@ class _Search:
         way = np.where(arc > 0, tangents + disc * arc, np.abs(junction))
         reach = finger.lengths[: rank - 1].sum()
         return np.asarray(clear & (way <= reach + np.pi / 2 * margin))
-
-
-def _apart(start: Complexes, step: Complexes) -> Floats:
-    """Distance of segments from the origin."""
-    square = step.real**2 + step.imag**2
-    along = -(start.real * step.real + start.imag * step.imag) / square
-    return np.asarray(np.abs(start + np.clip(along, 0.0, 1.0) * step))

@@ -16,13 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin.branch_grid import BranchGrid
-from zygopin.projection import (
-    PALM,
-    Complexes,
-    Floats,
-    ProjectedFinger,
-    wrap_angle,
-)
+from zygopin.laid_contact import lay_on
+from zygopin.projection import PALM, Floats, ProjectedFinger
 
 Booleans = NDArray[np.bool_]
 Indices = NDArray[np.intp]
@@ -41,9 +36,6 @@ TOGETHER = 8192
 
 STEPS = (0.2, 0.1, 0.05, 0.02, 0.01, 0.003)
 """Sizes of the random steps by which poses are improved, in controls."""
-
-STRAIGHT = 1e-12
-"""Turn back of a joint that is rounding [rad]."""
 
 ROUNDING = 1e-12
 """Excess of a pose that fits, over the length of the first phalanx."""
@@ -97,20 +89,6 @@ class Aim(NamedTuple):
     effort: int = 1
 
 
-class Contact(NamedTuple):
-    """Phalanges laid on their circles: the closing joint and what it makes.
-
-    Attributes:
-        control: Control of the joint, above 1 where it cannot turn that far.
-        wrap: How far round the contact lies [rad].
-        excess: By how much the pose fails to fit [m]; 0: it fits.
-    """
-
-    control: Floats
-    wrap: Floats
-    excess: Floats
-
-
 def tangent_poses(
     finger: ProjectedFinger,
     grid: BranchGrid,
@@ -147,62 +125,6 @@ def tangent_poses(
             controls[i, ..., :i] = table.free
             controls[i, ..., i] = np.minimum(table.closing, 1.0)  # but for rounding
     return TangentPoses(wrap, controls)
-
-
-def lay_on(
-    finger: ProjectedFinger,
-    free: Floats,
-    centre: Complexes,
-    radius: Floats,
-    side: int,
-    solid: bool,
-) -> Contact:
-    """Lay a phalanx on its circle, by the joint before it.
-
-    Args:
-        finger: The finger.
-        free: Controls of the joints before that one, shape (…, k − 1).
-        centre: Centres of the circles [m], shape (…).
-        radius: Their radii without skin [m], shape (…).
-        side: `PALM` or `BACK`, the side of the toe that touches.
-        solid: Whether the phalanges before stay out of the circle.
-
-    Returns:
-        The contact, shape (…).
-    """
-    rank = free.shape[-1] + 1
-    junction, pitch = -centre, np.full(free.shape[:-1], finger.orientation)
-    excess = np.zeros(free.shape[:-1])
-    for earlier in range(rank - 1):
-        pitch = pitch + finger.omega * free[..., earlier]
-        step = finger.lengths[earlier] * finger.direction(pitch)
-        if solid:
-            depth = radius + finger.radii[earlier] - _distance(junction, step)
-            excess += np.maximum(depth, 0.0)
-        junction = junction + step
-    skin = radius + finger.radii[rank - 1]
-    square = junction.real**2 + junction.imag**2
-    inside = square < skin**2
-    tangent = np.sqrt(np.where(inside, 0.0, square - skin**2))
-    # Turned from the centre's direction by the angle whose sine is skin over reach.
-    direction = -junction * (tangent + 1j * side * skin)
-    wanted, stretch = finger.pitch(direction)
-    turn = np.mod(wanted - pitch, 2 * np.pi)
-    turn = np.where(turn > 2 * np.pi - STRAIGHT, 0.0, turn)
-    length = finger.lengths[rank - 1]
-    over = np.minimum(np.maximum(turn - finger.omega, 0.0), 2 * np.pi - turn)
-    excess += np.where(inside, skin - np.sqrt(square), 0.0) + length * over
-    excess += np.maximum(tangent / stretch - length, 0.0)
-    wrap = wrap_angle(1j * side * direction, centre)
-    return Contact(turn / finger.omega, wrap, excess)
-
-
-def _distance(start: Complexes, step: Complexes) -> Floats:
-    """Distance of segments from the origin."""
-    square = step.real**2 + step.imag**2
-    along = -(start.real * step.real + start.imag * step.imag) / square
-    nearest = start + np.minimum(np.maximum(along, 0.0), 1.0) * step
-    return np.asarray(np.sqrt(nearest.real**2 + nearest.imag**2))
 
 
 class _Table(NamedTuple):
