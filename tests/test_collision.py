@@ -89,7 +89,7 @@ def test_an_empty_batch_is_an_empty_answer():
     none = np.empty((0, 14, 2, 3))
     branch = Branch(1, (0, 0, -1))
     assert collision.branch_clearance(none, foot.radii, branch).t.shape == (0, 14)
-    assert collision.skin_distance(none, foot.radii, pairs).shape == (0, 1)
+    assert collision.least_skin_distance(none, foot.radii, pairs).shape == (0,)
 
 
 def test_ends_out_of_reach_cost_no_accuracy():
@@ -151,12 +151,21 @@ def test_distances_between_skins_agree(name):
     foot = SIZES[name]
     bones, _ = scattered(foot, 60, seed=9)
     pairs = np.triu_indices(foot.phalanx_count, 1)
-    exact, other = (
-        engine.skin_distance(bones, foot.radii, pairs)
-        for engine in (clearance, collision)
-    )
-    assert other.shape == (60, 91)
-    assert np.abs(exact - other).max() < 1e-9 * foot.size
+    exact = clearance.skin_distance(bones, foot.radii, pairs)
+    least = collision.least_skin_distance(bones, foot.radii, pairs)
+    assert least.shape == (60,)
+    assert np.abs(exact.min(axis=1) - least).max() < 1e-9 * foot.size
+    for column, pair in enumerate(zip(*pairs, strict=True)):
+        one = tuple(np.array([index]) for index in pair)
+        other = collision.least_skin_distance(bones, foot.radii, one)
+        assert np.abs(exact[:, column] - other).max() < 1e-9 * foot.size
+
+
+def test_without_pairs_nothing_is_near():
+    foot = SIZES["paper"]
+    bones, _ = scattered(foot, 3, seed=9)
+    none = np.zeros(0, dtype=int), np.zeros(0, dtype=int)
+    assert np.isposinf(collision.least_skin_distance(bones, foot.radii, none)).all()
 
 
 @pytest.mark.parametrize(

@@ -55,7 +55,8 @@ def branch_clearance(bones: Floats, radii: Floats, branch: Branch) -> Clearance:
     shape = (*batch, bones.shape[-3])
     unit = _unit(bones)
     rows = _Rows.of(bones / unit, radii / unit, branch, unit)
-    record = _at_side(rows, branch.batch_shape == ())
+    # Objects cost more than queries: those of a branch serve all phalanges it has.
+    record = _at_side(rows, shape[-1] if branch.batch_shape else max(len(rows.skin), 1))
     ends = ~record.lateral
     if ends.any():
         at_end = _at_end(rows.select(ends))
@@ -100,10 +101,10 @@ def solid_nearest(bones: Floats, solid: Solid) -> Nearest:
     return Nearest(t, (gap - radius) * unit, normal)
 
 
-def skin_distance(
+def least_skin_distance(
     bones: Floats, radii: Floats, pairs: tuple[NDArray[np.intp], NDArray[np.intp]]
 ) -> Floats:
-    """Distance between the skins of pairs of phalanges, by FCL.
+    """Least distance between the skins of pairs of phalanges, by FCL.
 
     Args:
         bones: Bones [m], shape (…, P, 2, 3).
@@ -111,17 +112,37 @@ def skin_distance(
         pairs: Indices of the first and of the second phalanges, shape (M,) each.
 
     Returns:
-        Signed distances [m], shape (…, M): negative where skins overlap.
+        Signed distances [m], shape (…): negative where skins overlap; infinite without
+        pairs.
     """
     unit, count = _unit(bones), bones.shape[-3]
     flat = bones.reshape(-1, count, 2, 3) / unit
-    skins = np.broadcast_to(radii / unit, flat.shape[:2])
-    solids = _capsules(flat.reshape(-1, 2, 3), skins.ravel())
-    starts = range(0, len(solids), count)
-    first = [solids[start + i] for start in starts for i in pairs[0]]
-    second = [solids[start + j] for start in starts for j in pairs[1]]
-    distance, _, _ = _nearest(first, second, signed=False)
-    return distance.reshape(*bones.shape[:-3], len(pairs[0])) * unit
+    skin = radii / unit
+    rows, columns = np.nonzero(_may_be_least(flat, skin, pairs))
+    solids = _capsules(flat.reshape(-1, 2, 3), np.tile(skin, len(flat)))
+    first, second = (rows * count + side[columns] for side in pairs)
+    distance, _, _ = _nearest(
+        [solids[i] for i in first], [solids[i] for i in second], signed=False
+    )
+    least = np.full(len(flat), np.inf)
+    np.minimum.at(least, rows, distance)
+    return least.reshape(bones.shape[:-3]) * unit
+
+
+def _may_be_least(
+    bones: Floats, radii: Floats, pairs: tuple[NDArray[np.intp], NDArray[np.intp]]
+) -> NDArray[np.bool_]:
+    """Which pairs may be the nearest ones, by the spheres around them, (n, M).
+
+    No pair is farther apart than its middles, none nearer than its spheres.
+    """
+    i, j = pairs
+    middle, line = bones.mean(axis=2), bones[:, :, 1] - bones[:, :, 0]
+    size = np.sqrt(dot(line, line)) / 2
+    offset = middle[:, i] - middle[:, j]
+    most = np.sqrt(dot(offset, offset)) - radii[i] - radii[j]
+    least = most - size[:, i] - size[:, j]
+    return np.asarray(least <= most.min(axis=1, initial=np.inf, keepdims=True))
 
 
 @dataclass(frozen=True)
@@ -160,23 +181,20 @@ class _Rows:
         return np.stack([below - REACH * self.axis, below + REACH * self.axis], 1)
 
 
-def _at_side(rows: _Rows, single: bool) -> Clearance:
+def _at_side(rows: _Rows, share: int) -> Clearance:
     """Nearest points on the branches' sides, `lateral` where there is such a side.
 
     Args:
         rows: The phalanges and branches.
-        single: Whether all rows have the same branch: one object then serves all.
+        share: So many rows after one another have the same branch.
     """
     phalanges = _capsules(rows.bone, rows.skin)
-    # Objects cost more than queries: one branch is one object, however many rows.
-    some = rows.select(slice(0, 1)) if single else rows
-    repeat = len(phalanges) if single else 1
-    stem = some.stem()
-    sides = _capsules(stem, some.radius) * repeat
-    slims = _capsules(stem, SHRUNK * some.radius) * repeat
-    distance, _, _ = _nearest(phalanges, sides, signed=False)
-    gap, near, far = _nearest(phalanges, slims, signed=False)
-
+    some = rows.select(slice(None, None, share))
+    slims = _capsules(some.stem(), SHRUNK * some.radius)
+    each = [solid for solid in slims for _ in range(share)]
+    gap, near, far = _nearest(phalanges, each, signed=False)
+    # Between capsules FCL's distance is exact, overlapping or not.
+    distance = gap - (1 - SHRUNK) * rows.radius
     t, core = _core(rows.bone, near)
     normal = _direction(near - far, gap, rows)
     axial = dot(core - rows.centre, rows.axis)

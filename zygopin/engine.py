@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, Literal
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
 
 from zygopin import clearance
 from zygopin.branch import Branch
@@ -15,6 +18,8 @@ from zygopin.foot import Foot
 from zygopin.kinematics import forward_kinematics
 
 EngineName = Literal["exact", "fcl"]
+
+Indices = NDArray[np.intp]
 
 ENGINES: tuple[EngineName, ...] = ("exact", "fcl")
 
@@ -28,14 +33,14 @@ class Engine:
         foot: The foot it is for.
         bones: Controls (…, P) to bones (…, P, 2, 3).
         branch_clearance: Bones, radii and branch to a `Clearance`.
-        skin_distance: Bones, radii and pairs to distances (…, M).
+        least_skin_distance: Bones, radii and pairs to the least distance (…).
     """
 
     name: str
     foot: Foot
     bones: Callable[[Floats], Floats]
     branch_clearance: Callable[[Floats, Floats, Branch], Clearance]
-    skin_distance: Callable[[Floats, Floats, Any], Floats]
+    least_skin_distance: Callable[[Floats, Floats, tuple[Indices, Indices]], Floats]
 
 
 def make_engine(name: str, foot: Foot) -> Engine:
@@ -60,7 +65,7 @@ def make_engine(name: str, foot: Foot) -> Engine:
             foot,
             partial(forward_kinematics, foot),
             clearance.branch_clearance,
-            clearance.skin_distance,
+            _least_skin_distance,
         )
     if name != "fcl":
         raise UnknownNameError("engine", name, ENGINES)
@@ -72,5 +77,13 @@ def make_engine(name: str, foot: Foot) -> Engine:
         foot,
         FootModel(foot).forward,
         collision.branch_clearance,
-        collision.skin_distance,
+        collision.least_skin_distance,
     )
+
+
+def _least_skin_distance(
+    bones: Floats, radii: Floats, pairs: tuple[Indices, Indices]
+) -> Floats:
+    """Least distance between the skins of pairs, by the exact engine."""
+    distances = clearance.skin_distance(bones, radii, pairs)
+    return np.asarray(distances.min(axis=-1, initial=np.inf))

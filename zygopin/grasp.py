@@ -224,7 +224,7 @@ def _report(
     bones = engine.bones(controls)
     near = engine.branch_clearance(bones, foot.radii, branch)
     contacts = classify(near, tolerance)
-    apart = _finger_clearance(foot, bones, engine)
+    apart = engine.least_skin_distance(bones, foot.radii, finger_pairs(foot))
     batch = near.distance.shape[:-1]
     apart = np.broadcast_to(apart, batch)
     return GraspReport(
@@ -325,14 +325,6 @@ def finger_pairs(foot: Foot) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     finger, rank = foot.finger_of_phalanx, foot.rank_of_phalanx
     apart = (finger[i] != finger[j]) & (rank[i] + rank[j] > 2)
     return i[apart], j[apart]
-
-
-def _finger_clearance(foot: Foot, bones: Floats, engine: Engine) -> Floats:
-    """Least distance between the skins of two fingers; infinite for one finger."""
-    pairs = finger_pairs(foot)
-    if not len(pairs[0]):
-        return np.full(bones.shape[:-3], np.inf)
-    return np.asarray(engine.skin_distance(bones, foot.radii, pairs).min(axis=-1))
 
 
 def least_product(foot: Foot, vectors: Floats, tangent: Booleans) -> Floats:
