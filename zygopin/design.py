@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from multiprocessing import get_context
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from zygopin import checks
-from zygopin.errors import ParameterError, UnknownNameError, WorkerError
+from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.foot import Foot
 from zygopin.graspable import GraspableRadii, Interval, graspable_radii, radius_range
-from zygopin.worker_process import leave_with_parent
+from zygopin.worker_process import mapping
 
 BOUNDS: dict[str, Interval] = {
     "rho": (1.05, 1.8),
@@ -49,7 +46,7 @@ TURN_WORTH = 1e-3
 """Share of the range that a half turn of mean wrap is worth: it decides between feet
 that grasp equally many perches."""
 
-MOST_TRIALS, MOST_WORKERS = 1_000_000, 1024
+MOST_TRIALS = 1_000_000
 
 Floats = NDArray[np.float64]
 
@@ -125,7 +122,7 @@ def design_foot(
         checks.integer("trials", trials, POPULATION, MOST_TRIALS) // POPULATION
     )
     search = _Search(foot, low, high, tuple(free.items()))
-    with _mapping(checks.integer("workers", workers, 1, MOST_WORKERS)) as spread:
+    with mapping(workers) as spread:
         finalists = search.best(generations, spread)
         feet = [foot, *map(search.rounded, finalists)]
         exact = list(spread(_Exact(low, high), feet))
@@ -249,19 +246,3 @@ def _bounds(foot: Foot, name: str, given: object) -> Interval:
     for end in (low, high):
         varied_foot(foot, {name: end})
     return low, high
-
-
-@contextmanager
-def _mapping(workers: int) -> Iterator[Callable[..., Any]]:
-    """What applies a function to many values: here, or in other processes."""
-    if workers == 1:
-        yield map
-        return
-    try:
-        with ProcessPoolExecutor(
-            workers, get_context("spawn"), initializer=leave_with_parent
-        ) as pool:
-            yield pool.map
-    except BrokenExecutor as error:
-        remedy = "take fewer workers"
-        raise WorkerError("a worker process ended early", remedy) from error

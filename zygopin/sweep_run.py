@@ -11,7 +11,7 @@ from typing import Any
 from zygopin import checks
 from zygopin.errors import MissingExtraError, UnknownNameError, WorkerError
 from zygopin.sweep_cell import Arrays, Chunk, plan_chunk
-from zygopin.worker_process import leave_with_parent
+from zygopin.worker_process import MOST_WORKERS, leave_with_parent
 
 try:
     from dask.base import compute
@@ -28,8 +28,6 @@ PROTOCOLS = ("tcp://", "tls://", "ws://", "wss://", "ucx://", "inproc://")
 
 PATIENCE = 10
 """How long a cluster may take to answer [s]."""
-
-MOST_WORKERS = 1024
 
 AGAIN = "run the same again: what was finished is kept where there is an output"
 """What to do when the workers are gone."""
