@@ -7,7 +7,15 @@ import math
 import numpy as np
 import pytest
 from axes import one_finger
-from tangencies import TOLERANCE, base_distance, cases, projected, tangencies
+from tangencies import (
+    TOLERANCE,
+    base_distance,
+    cases,
+    projected,
+    random_controls,
+    random_view,
+    tangencies,
+)
 
 from zygopin.branch_grid import BranchGrid
 from zygopin.contact_hull import Circles, Criterion, contact_possible
@@ -35,6 +43,29 @@ def test_no_contact_is_ruled_out(first):
             assert contact_possible(finger, seen, rank, side, criterion).all()
             tried += len(made.radius)
     assert tried > 20
+
+
+@pytest.mark.parametrize("first", range(400, 408, 4))
+def test_no_contact_with_a_twig_is_ruled_out(first):
+    # Thinner than ranges are fine: what is bounded may lie inside the twig.
+    tried = 0
+    for seed in range(first, first + 4):
+        (foot, axis, away), rng = random_view(seed), np.random.default_rng(seed)
+        near = away / np.linalg.norm(away) * rng.uniform(0.05, 0.8) * foot.size
+        view, finger = (foot, axis, near), projected(foot, axis)
+        for rank in range(1, len(finger.lengths) + 1):
+            controls = random_controls(rng, 4000, len(finger.lengths))
+            made = tangencies(*view, rank, controls)
+            made = made.take(made.radius < 0.03 * view[0].size)
+            for side in (PALM, BACK):
+                some = made.contacts(side=side, solid=True, least=1e-5 * view[0].size)
+                some = some.take(some.radius <= base_distance(view))
+                criterion = Criterion(TOLERANCE * view[0].size)
+                for least in (-np.inf, some.wrap - 1e-6):
+                    seen = circles(finger, view[2], some.radius, least)
+                    assert contact_possible(finger, seen, rank, side, criterion).all()
+                    tried += len(some.radius)
+    assert tried > 5
 
 
 @pytest.mark.parametrize("omega", [3.11, 3.14, 1.5616519, 6.2])

@@ -13,6 +13,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
+from zygopin.junction_hull import junction_hull
 from zygopin.laid_contact import segment_gap
 from zygopin.projection import BEHIND, Complexes, Floats, ProjectedFinger
 
@@ -23,7 +24,7 @@ DIRECTIONS = np.exp(1j * np.pi / 4 * np.array([0, 4, 2, 6, 1, 7, 3, 5]))
 """Directions, relative to the junction's, in which the hull is bounded: those that rule
 out most come first."""
 
-STARTS = 48
+STARTS = 16
 """Ranges of wrap that are looked at first."""
 
 STAGES = ((0, 0.02), (1, 0.02), (2, 0.02), (2, 0.005))
@@ -31,11 +32,15 @@ STAGES = ((0, 0.02), (1, 0.02), (2, 0.02), (2, 0.005))
 junction, over the finger's length, below which it is left as possible: each only where
 the ones before rule nothing out."""
 
-MOST_RANGES = 4000
-"""Ranges for each branch that are looked at before it is left as possible."""
+MOST_RANGES, ENOUGH = 1000, 100_000
+"""Ranges for each branch that are looked at before it is left as possible; and for all
+together, where they are few."""
 
 BATCH = 16_384
 """Ranges that are looked at at once: their arrays stay in the cache."""
+
+WORTHWHILE = 2048
+"""Ranges below which a call costs more than what it looks at."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,14 +96,16 @@ def contact_possible(
     Returns:
         A mask, shape (n,); elsewhere no contact is possible.
     """
-    left = np.arange(len(circles.radius))
-    for bends, fine in STAGES:
-        search = _Search(
-            finger, circles, rank, side, criterion, min(bends, rank - 1), fine
-        )
-        left = left[search.possible(left)]
     possible = np.zeros(len(circles.radius), dtype=bool)
-    possible[left] = True
+    open_ = np.arange(len(possible))
+    # A phalanx with few joints before it has stages that are alike.
+    stages = dict.fromkeys((min(bends, rank - 1), fine) for bends, fine in STAGES)
+    for bends, fine in stages:
+        search = _Search(finger, circles, rank, side, criterion, bends, fine)
+        left, given_up = search.possible(open_)
+        possible[open_[given_up]] = True
+        open_ = open_[left & ~given_up]
+    possible[open_] = True
     return possible
 
 
@@ -123,18 +130,29 @@ class _Ranges:
         """Some of the ranges."""
         return _Ranges(*(getattr(self, f.name)[..., which] for f in fields(self)))
 
-    def halved(self, widest: Indices) -> _Ranges:
-        """Both halves of each, along one of its dimensions."""
+    def halved(self, widest: Indices) -> list[_Ranges]:
+        """The halves of each along one of its dimensions, the first and the second."""
         half, shift = self.half.copy(), np.zeros_like(self.half)
         place = widest, np.arange(len(widest))
         half[place] /= 2
         shift[place] = half[place]
-        return _Ranges(
-            np.concatenate([self.branch] * 2),
-            np.concatenate([self.turns] * 2),
-            np.concatenate([self.middle - shift, self.middle + shift], axis=1),
-            np.concatenate([half] * 2, axis=1),
+        return [
+            _Ranges(self.branch, self.turns, self.middle + move, half)
+            for move in (-shift, shift)
+        ]
+
+
+def _top(stack: list[_Ranges]) -> _Ranges:
+    """Take ranges off a stack, as many as are worth a call."""
+    taken = [stack.pop()]
+    while stack and sum(len(each.branch) for each in taken) < WORTHWHILE:
+        taken.append(stack.pop())
+    return _Ranges(
+        *(
+            np.concatenate([getattr(each, f.name) for each in taken], axis=-1)
+            for f in fields(_Ranges)
         )
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,34 +171,31 @@ class _Search:
     bends: int
     fine: float
 
-    def possible(self, branches: Indices) -> Booleans:
-        """Which of some branches remain, shape (n,)."""
-        left = np.zeros(len(self.circles.radius), dtype=bool)
+    def possible(self, branches: Indices) -> tuple[Booleans, Booleans]:
+        """Which of some branches remain, and for which too much was looked at, (n,)."""
+        spent = np.zeros(len(self.circles.radius), dtype=np.intp)
+        left = spent > 0
+        most = max(MOST_RANGES, ENOUGH // max(len(branches), 1))
         fine = self.fine * self.finger.lengths.sum()
         chunk = max(BATCH // STARTS, 1)
         stack = [
             self._starts(branches[start : start + chunk])
             for start in range(0, len(branches), chunk)
         ]
-        budget = MOST_RANGES * max(len(branches), 100)
         while stack:
-            ranges = stack.pop()
-            # A branch with one contact needs no further search.
+            # One contact that is left, or too much work, settles a branch.
+            ranges = _top(stack)
             ranges = ranges.take(~left[ranges.branch])
-            budget -= len(ranges.branch)
-            if budget < 0:
-                left[ranges.branch] = True
-                continue
+            spent += np.bincount(ranges.branch, minlength=len(spent))
+            left |= spent > most
             kept, moves = self._left(ranges)
             ranges, moves = ranges.take(kept), moves[:, kept]
             small = moves.sum(axis=0) < fine
             left[ranges.branch[small]] = True
-            halves = ranges.take(~small).halved(np.argmax(moves[:, ~small], axis=0))
-            stack += [
-                halves.take(slice(start, start + BATCH))
-                for start in range(0, len(halves.branch), BATCH)
-            ]
-        return left[branches]
+            if not small.all():
+                widest = np.argmax(moves[:, ~small], axis=0)
+                stack += ranges.take(~small).halved(widest)
+        return left[branches], spent[branches] > most
 
     def _starts(self, branches: Indices) -> _Ranges:
         """All of the wrap and the phalanx, for every number of turns."""
@@ -223,7 +238,8 @@ class _Search:
         for bend in range(self.bends + 1):
             margin = moves.sum(axis=0) + tolerance
             rank = self.rank - bend
-            left &= self._within(rank, junction, margin, pitch, spread)
+            hull = junction_hull(finger, rank)
+            left &= hull.holds(junction, margin, pitch, spread)
             if self.criterion.solid:
                 left &= self._around(rank, junction, margin, centre, radius)
             if bend == self.bends:
@@ -247,43 +263,6 @@ class _Search:
         most = self.criterion.sense * ranges.middle[0] + ranges.half[0]
         return np.asarray(most > self.circles.beyond[ranges.branch])
 
-    def _within(
-        self,
-        rank: int,
-        junction: Complexes,
-        margin: Floats,
-        pitch: Floats,
-        spread: Floats,
-    ) -> Booleans:
-        """Whether junctions are in the hull of what the phalanges before can do."""
-        finger = self.finger
-        first, bound = finger.orientation, finger.omega
-        left = (pitch + spread >= first) & (pitch - spread <= first + rank * bound)
-        size = np.abs(junction)
-        toward = np.where(size > 0, junction / np.where(size > 0, size, 1.0), 1.0)
-        ranges = []
-        for joint in range(1, rank):
-            low = np.maximum(first, pitch - spread - (rank - joint) * bound)
-            high = np.minimum(first + joint * bound, pitch + spread)
-            left &= low <= high
-            ranges.append((low, high, finger.lengths[joint - 1]))
-        held = np.flatnonzero(left)
-        for direction in DIRECTIONS:
-            way, most = toward[held] * direction, margin[held]
-            even = finger.forward * way.real
-            odd = -(finger.shear * way.real + finger.drop * way.imag)
-            # A unit vector of pitch θ goes far·cos(θ − peak) that way.
-            far, peak = np.hypot(even, odd), np.arctan2(odd, even)
-            for low, high, length in ranges:
-                begin, end = low[held], high[held]
-                off = np.mod(peak - begin, 2 * np.pi)
-                outside = np.minimum(off - (end - begin), 2 * np.pi - off)
-                most += length * far * np.cos(np.clip(outside, 0.0, np.pi))
-            held = held[size[held] * direction.real <= most]
-        left = np.zeros(len(left), dtype=bool)
-        left[held] = True
-        return np.asarray(left)
-
     def _around(
         self,
         rank: int,
@@ -298,10 +277,13 @@ class _Search:
         disc = np.maximum(radius + finger.radii[before] - tolerance, tolerance)
         start, end = np.abs(centre), np.abs(junction - centre)
         clear = (end + margin >= disc) & (start >= disc)
+        # The true junction is outside: the nearest way between two such points is at
+        # most π/2 times as long as the straight one.
+        detour = np.pi / 2 * (margin + np.maximum(disc - end, 0.0))
         start, end = np.maximum(start, disc), np.maximum(end, disc)
         turn = np.abs(np.angle((junction - centre) * np.conj(-centre)))
         arc = turn - np.arccos(disc / start) - np.arccos(disc / end)
         tangents = np.sqrt(start**2 - disc**2) + np.sqrt(end**2 - disc**2)
         way = np.where(arc > 0, tangents + disc * arc, np.abs(junction))
         reach = finger.lengths[: rank - 1].sum()
-        return np.asarray(clear & (way <= reach + np.pi / 2 * margin))
+        return np.asarray(clear & (way <= reach + detour))

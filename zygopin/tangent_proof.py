@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,22 +40,15 @@ def unproved(
         return np.array(asked, dtype=bool)
     bounds = np.broadcast_to(-np.inf if beyond is None else beyond, asked.shape)
     sides = (PALM,) if criterion.palmar else (PALM, BACK)
-    cases = list(itertools.product(reversed(range(len(finger.lengths))), sides))
-
-    def left(case: tuple[int, int]) -> Booleans:
-        index, side = case
+    result = np.zeros_like(asked)
+    for index, side in itertools.product(reversed(range(len(asked))), sides):
         least = bounds[index]
         near = asked[index] & ~_out_of_reach(finger, grid, index + 1, criterion, least)
         cells = np.nonzero(near)
         centre, radius = grid.centres(finger)[cells[0]], grid.radii[cells[1]]
         circles = Circles(centre, radius, least[cells])
-        near[cells] = contact_possible(finger, circles, index + 1, side, criterion)
-        return np.asarray(near)
-
-    result = np.zeros_like(asked)
-    with ThreadPoolExecutor() as pool:
-        for (index, _), found in zip(cases, pool.map(left, cases), strict=True):
-            result[index] |= found
+        left = contact_possible(finger, circles, index + 1, side, criterion)
+        result[index][cells] |= left
     return result
 
 
