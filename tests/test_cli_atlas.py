@@ -36,7 +36,8 @@ def asked(monkeypatch):
     """What the atlas is asked for; it answers with a made one."""
     questions = []
 
-    def answer(foot, grid, *, progress):
+    def answer(foot, grid, *, workers, progress):
+        assert workers >= 1
         progress("looking it up")
         questions.append((foot, grid))
         return made_atlas()

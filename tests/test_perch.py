@@ -16,7 +16,7 @@ from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.foot import Finger, Foot
 from zygopin.grasp import check_grasp
 from zygopin.hold import check_hold
-from zygopin.perch import plan_perch
+from zygopin.perch import PROVED, plan_perch
 from zygopin.perch_proof import Existence
 from zygopin.strength import Strength
 
@@ -185,8 +185,12 @@ def reason(branch, foot=PARROT, **options):
     plan = plan_perch(foot, branch, levels=5, **options)
     assert_true(plan)
     proved = plan.existence is Existence.NONE
-    assert proved == plan.reason.startswith("no grasp exists")
-    return re.sub("^no grasp exists( at [0-9]+ heights tried)?: ", "", plan.reason)
+    assert proved == plan.reason.startswith(PROVED)
+    return re.sub(
+        "^no grasp with the toes' palms exists( at [0-9]+ heights tried)?: ",
+        "",
+        plan.reason,
+    )
 
 
 def test_a_branch_too_far_off_says_how_far():

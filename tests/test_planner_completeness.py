@@ -9,14 +9,14 @@ from functools import cache
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from planted import planted
 
 from zygopin.branch import Branch, branch_axis
 from zygopin.cli import main
 from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.foot import Foot
 from zygopin.grasp import check_grasp
-from zygopin.kinematics import forward_kinematics
-from zygopin.perch import perch_solutions, plan_perch, search_perch
+from zygopin.perch import PROVED, perch_solutions, plan_perch, search_perch
 from zygopin.perch_column import Column
 from zygopin.perch_combinations import all_poses, combinations
 from zygopin.perch_output import solution_documents, solution_rows
@@ -45,57 +45,24 @@ def ways(prefer="wrap"):
 # Yes where there is one -----------------------------------------------------------
 
 
-def planted(seed):
-    """A feasible grasp found by trying branches against random poses, not planned.
-
-    Controls are drawn, and the branch is solved for: each of two opposite toes has a
-    phalanx tangent to it, which is a 2×2 system for height and radius.
-    """
-    rng = np.random.default_rng(seed)
-    foot = PARROT
-    for _ in range(400):
-        controls = rng.uniform(0, 1, (500, foot.phalanx_count)) ** 2
-        bones = forward_kinematics(foot, controls)
-        i, j = foot.opposable_pairs[rng.integers(len(foot.opposable_pairs))]
-        chosen = [
-            rng.choice(np.flatnonzero(foot.finger_of_phalanx == f)) for f in (i, j)
-        ]
-        found = solved(bones[:, chosen], foot.radii[chosen])
-        good = (found[:, 1] > 0.08 * SIZE) & (found[:, 1] < SIZE)
-        good &= found[:, 0] < -found[:, 1] - foot.radii.max()
-        for index in np.flatnonzero(good):
-            branch = Branch(found[index, 1], (0, 0, found[index, 0]))
-            report = check_grasp(foot, controls[index], branch)
-            if report.grasping & report.feasible:
-                return branch
-    return None
-
-
-def solved(bones, skin):
-    """Height and radius of the branch across the foot tangent to two bones, (N, 2)."""
-    flat = bones[..., [0, 2]]
-    step = flat[:, :, 1] - flat[:, :, 0]
-    normal = np.stack([-step[..., 1], step[..., 0]], axis=-1)
-    normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
-    # The branch's centre is on the side of the palm: below a toe that is straight.
-    side = np.where(step[..., 0] >= 0, -1.0, 1.0) * np.sign(normal[..., 1])
-    normal *= np.where(normal[..., 1:] > 0, -1.0, 1.0) * np.abs(side)[..., None]
-    # normal · (0, h) = normal · start + r + skin
-    right = np.einsum("nkx,nkx->nk", normal, flat[:, :, 0]) + skin
-    matrix = np.stack([normal[..., 1], -np.ones_like(right)], axis=-1)
-    regular = np.abs(np.linalg.det(matrix)) > 1e-6
-    result = np.full((len(bones), 2), np.nan)
-    result[regular] = np.linalg.solve(matrix[regular], right[regular][..., None])[
-        ..., 0
+@cache
+def grasped(axis, count):
+    """Branches that random poses grasp."""
+    found = [planted(PARROT, seed, axis, count=60_000) for seed in range(2)]
+    made = [
+        Branch(each.radius[index], (0, 0, each.height[index]), axis)
+        for each in found
+        for index in np.flatnonzero(each.grasping)
     ]
-    return result
+    return made[:count]
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_a_grasp_that_was_planted_is_found(seed):
-    branch = planted(seed)
-    assert branch is not None
-    assert plan_perch(PARROT, branch).existence is Existence.FOUND
+@pytest.mark.parametrize("axis", [(0.0, 1.0, 0.0), (0.3, 1.0, 0.2), (-0.2, 1.0, -0.4)])
+def test_grasps_that_were_planted_are_found(axis):
+    branches = grasped(axis, 5)
+    assert len(branches) == 5
+    for branch in branches:
+        assert plan_perch(PARROT, branch).existence is Existence.FOUND
 
 
 def test_a_grasp_between_the_grid_angles_is_found():
@@ -124,7 +91,7 @@ def test_no_search_contradicts_a_proof(foot, share, yaw, pitch, gap):
     branch = under(foot, share, yaw, pitch, gap)
     plan = plan_perch(foot, branch)
     assert plan.existence is Existence.NONE
-    assert plan.reason.startswith("no grasp exists: ")
+    assert plan.reason.startswith(f"{PROVED}: ")
     for levels in (5, 8):
         poses = all_poses(foot, branch.broadcast((1,)), levels)
         assert not combinations(foot, poses).grasps.any()
@@ -145,7 +112,9 @@ def test_heights_that_a_proof_is_about_are_told():
     assert plan.existence is Existence.NONE
     assert plan.column.heights[0] == pytest.approx(-2 * SIZE - PARROT.radii.max())
     count = len(plan.column.heights)
-    assert plan.reason.startswith(f"no grasp exists at {count} heights tried: ")
+    assert plan.reason.startswith(
+        f"no grasp with the toes' palms exists at {count} heights tried: "
+    )
 
 
 def test_feet_without_opposite_toes_grasp_nothing():
@@ -168,7 +137,7 @@ def test_a_branch_with_an_end_in_reach_stays_undecided():
     plan = plan_perch(PARROT, short, levels=3)
     assert not plan.grasping
     assert plan.existence is Existence.UNDECIDED
-    assert not plan.reason.startswith("no grasp exists")
+    assert not plan.reason.startswith(PROVED)
 
 
 def test_a_short_branch_beyond_all_toes_is_not_grasped_for_sure():
@@ -254,7 +223,7 @@ def test_the_document_says_what_is_proved():
     document = json.loads(result.stdout)
     assert document["verdict"]["existence"] == "none"
     assert "solutions" not in document
-    assert "no grasp exists" in result.stderr
+    assert PROVED in result.stderr
 
 
 # Failure --------------------------------------------------------------------------

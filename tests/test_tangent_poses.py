@@ -15,7 +15,7 @@ from zygopin.clearance import branch_clearance
 from zygopin.kinematics import forward_kinematics
 from zygopin.laid_contact import lay_on
 from zygopin.projection import BACK, PALM
-from zygopin.tangent_poses import Aim, TangentPoses, tangent_poses
+from zygopin.tangent_poses import TangentPoses, tangent_poses
 
 Y = np.array([0.0, 1.0, 0.0])
 
@@ -161,7 +161,7 @@ def test_no_pose_is_no_best():
 
 
 def test_an_aim_is_met_where_it_can_be():
-    far, near = poses(), poses(aim=Aim(1.0))
+    far, near = poses(), poses(aim=1.0)
     both = np.isfinite(far.wrap) & np.isfinite(near.wrap)
     off = np.abs(near.wrap - 1.0) - np.abs(far.wrap - 1.0)
     assert (off[both] <= 1e-3).all()

@@ -8,10 +8,17 @@ import pytest
 from zygopin import Foot, check_grasp
 from zygopin.branch_grid import BranchGrid
 from zygopin.grasp import Criteria
-from zygopin.tangent_poses import Aim
+from zygopin.projection import PALM
 from zygopin.toe_contacts import ToeSearch
 from zygopin.touch import touch_intervals
-from zygopin.witnesses import MERITS, Witnesses, opposing, touched
+from zygopin.witnesses import (
+    MERITS,
+    Witnesses,
+    opposing,
+    palmar,
+    tangent_sides,
+    touched,
+)
 
 FOOT = Foot.preset("parrot")
 SIZE = FOOT.size
@@ -29,7 +36,7 @@ def poses():
     away = touch_intervals(FOOT, GRID.at(*cells)).most_controls
     search, made = ToeSearch(FOOT, GRID), [away]
     for aim in (9.0, 1.2, 0.5):
-        laid = search.poses(wanted, aim=Aim(aim))
+        laid = search.poses(wanted, aim=aim)
         found, controls = laid.found, laid.controls
         for skip in (0, 1, 2):
             whole = away.copy()
@@ -114,6 +121,53 @@ def test_a_pose_that_enters_is_not_kept():
     assert not check_grasp(FOOT, closed[0], branch).feasible
     found.offer((np.array([row]), np.array([column])), closed)
     assert not found.merit.any()
+
+
+def test_of_several_poses_for_one_branch_the_best_is_kept(kept):
+    cells = np.nonzero(kept.merit)
+    row, column = (axis[np.argmax(kept.merit[cells])] for axis in cells)
+    best = kept.controls[row, column]
+    straight = np.zeros_like(best)
+    for offered in ((straight, best, straight), (best, straight)):
+        found, count = Witnesses(FOOT, GRID, Criteria()), len(offered)
+        cell = np.full(count, row), np.full(count, column)
+        found.offer(cell, np.stack(offered))
+        assert found.merit[row, column] == kept.merit[row, column]
+        assert np.array_equal(found.controls[row, column], best)
+
+
+def test_what_both_engines_show_is_confirmed(kept):
+    found = Witnesses(FOOT, GRID, Criteria())
+    cells = np.nonzero(kept.merit)
+    found.offer(cells, kept.controls[cells])
+    before = found.merit.copy()
+    found.confirm()
+    assert np.array_equal(found.merit, before)
+
+
+def test_what_the_other_engine_does_not_show_is_dropped(kept):
+    found = Witnesses(FOOT, GRID, Criteria())
+    cells = np.nonzero(kept.shows("grasping"))
+    found.offer(cells, kept.controls[cells])
+    rows, columns = cells
+    # A pose that enters, and one that touches nothing, said to grasp.
+    found.controls[rows[0], columns[0]] = 1.0
+    found.controls[rows[1], columns[1]] = 0.0
+    found.confirm()
+    for row, column in list(zip(rows, columns, strict=True))[:2]:
+        assert not found.merit[row, column]
+        assert np.isnan(found.controls[row, column]).all()
+        assert not found.sides[row, column].any()
+    assert found.shows("grasping").sum() == len(rows) - 2
+
+
+def test_sides_are_those_of_tangent_phalanges(kept):
+    row, column = np.argwhere(kept.shows("grasping"))[0]
+    report = check_grasp(FOOT, kept.controls[row, column], GRID.at(row, column))
+    sides = tangent_sides(report)
+    assert np.array_equal(sides != 0, report.tangent)
+    assert np.array_equal(kept.sides[row, column], sides)
+    assert (sides[report.tangent & palmar(report)] == PALM).all()
 
 
 def test_fingers_are_touched_by_their_own_phalanges():

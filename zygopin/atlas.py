@@ -6,7 +6,10 @@ with the proof that there is none; or it stays undecided, and is counted.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,12 +19,17 @@ from zygopin.branch import Branch
 from zygopin.branch_grid import BranchGrid
 from zygopin.errors import UnknownNameError
 from zygopin.foot import Foot
-from zygopin.grasp import GraspReport, check_grasp
-from zygopin.survey import Progress, Survey
+from zygopin.grasp import GraspReport, check_branch, check_grasp
+from zygopin.survey import Survey
 from zygopin.toe_contacts import Answer, Codes
-from zygopin.witnesses import opposing, touched
+from zygopin.worker_process import mapping
 
 Floats = NDArray[np.float64]
+Progress = Callable[[str], None]
+
+ROWS = 100
+"""Least heights that are surveyed together. Of more than twice as many every second is,
+then the others, and so on: such parts are alike, and processes share them."""
 
 VERDICTS = ("touchable", "stable", "feasible", "grasping")
 """The questions that are answered with yes, no or undecided."""
@@ -96,36 +104,6 @@ class Atlas:
         """
         return float(np.mean(self.answer(verdict) == Answer.UNDECIDED))
 
-    def unconfirmed(self, verdict: str) -> int:
-        """How many poses another engine, by Pinocchio and FCL, does not confirm.
-
-        Args:
-            verdict: One of `VERDICTS`.
-
-        Returns:
-            The number of branches answered yes whose pose fails, of all: 0 is wanted.
-
-        Raises:
-            UnknownNameError: There is no such question.
-        """
-        cells = np.nonzero(self.answer(verdict) == Answer.YES)
-        if not len(cells[0]):
-            return 0
-        controls = self.controls[cells]
-        if verdict == "stable":
-            known = np.isfinite(controls)
-            controls = np.where(known, controls, self.stable_controls[cells])
-        branches = self.grid.at(*cells)
-        report = check_grasp(self.foot, controls, branches, engine="fcl")
-        touching = opposing(self.foot, touched(self.foot, report.touching))
-        holds = {
-            "touchable": touching & report.feasible,
-            "stable": report.stable,
-            "feasible": report.stable & report.feasible,
-            "grasping": report.grasping & report.feasible,
-        }
-        return int((~holds[verdict]).sum())
-
     def branch(self, row: int, column: int) -> Branch:
         """One of the branches.
 
@@ -158,35 +136,67 @@ class Atlas:
 
 
 def branch_atlas(
-    foot: Foot, grid: BranchGrid, *, progress: Progress | None = None
+    foot: Foot,
+    grid: BranchGrid,
+    *,
+    workers: int = 1,
+    progress: Progress | None = None,
 ) -> Atlas:
     """What a foot can do with every branch of a grid.
 
-    For a pair of fingers, give a foot of these two.
+    Poses are found by search, checked by the exact engine and again through Pinocchio
+    and FCL. For a pair of fingers, give a foot of these two.
 
     Args:
         foot: The foot.
         grid: The branches.
-        progress: Called with the name of each part of the work as it begins.
+        workers: Number of processes; the answer is the same. With more than one, a
+            script needs the guard `if __name__ == "__main__":`.
+        progress: Called with a line on how far the work is.
 
     Returns:
         The atlas.
 
     Raises:
-        ParameterError: An argument is of the wrong type.
+        ParameterError: An argument is of the wrong type, or a branch is too thin or too
+            far for this foot.
+        WorkerError: A process ended early.
     """
     checks.instance("foot", foot, Foot)
     checks.instance("grid", grid, BranchGrid)
-    found = Survey(foot, grid, progress or (lambda _: None))
-    return Atlas(
-        foot,
-        grid,
-        found.touchable,
-        found.stable,
-        found.feasible,
-        found.grasping,
-        found.toe_counts,
-        found.wraps,
-        found.witnesses.controls,
-        found.loose_controls,
-    )
+    check_branch(foot, grid.at(*np.nonzero(grid.valid)))
+    count = max(len(grid.heights) // ROWS, 1)
+    grids = [grid.rows(slice(first, None, count)) for first in range(count)]
+    tell, parts = progress or (lambda _: None), []
+    with mapping(min(workers, count)) as spread:
+        tell(f"0 of {len(grid.heights)} heights")
+        for part in spread(partial(_findings, foot), grids):
+            parts.append(part)
+            done = sum(len(each["toes"]) for each in parts)
+            tell(f"{done} of {len(grid.heights)} heights")
+    return Atlas(foot, grid, **_interleaved(parts))
+
+
+def _interleaved(parts: list[dict[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
+    """The arrays of all heights, from those of every so manieth one."""
+    rows = sum(len(part["toes"]) for part in parts)
+    whole = {
+        name: np.empty((rows, *array.shape[1:]), array.dtype)
+        for name, array in parts[0].items()
+    }
+    for first, part in enumerate(parts):
+        for name, array in part.items():
+            whole[name][first :: len(parts)] = array
+    return whole
+
+
+def _findings(foot: Foot, grid: BranchGrid) -> dict[str, NDArray[Any]]:
+    """The arrays of the atlas of some of the heights."""
+    found = Survey(foot, grid)
+    return {
+        **{name: getattr(found, name) for name in VERDICTS},
+        "toes": found.toe_counts,
+        "wrap": found.wraps,
+        "controls": found.witnesses.controls,
+        "stable_controls": found.loose_controls,
+    }

@@ -80,6 +80,14 @@ class BranchGrid:
         centre = np.concatenate([across, height[..., None]], axis=-1)
         return Branch(self.radii[np.asarray(columns)], centre, self.axis)
 
+    def rows(self, which: slice) -> BranchGrid:
+        """The grid of some of the heights.
+
+        Args:
+            which: Their indices.
+        """
+        return BranchGrid(self.heights[which], self.radii, self.axis, self.offset)
+
     def line(self, finger: ProjectedFinger) -> tuple[complex, complex]:
         """Where a finger sees the centres: origin and step, centre = origin + z·step.
 

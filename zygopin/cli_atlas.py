@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -74,8 +75,13 @@ def _file_options(command: Any) -> Any:
     type=MM,
     help="z of the scene's branches; else as high as the base allows.",
 )
+@click.option(
+    "--workers", type=click.IntRange(1, 1024), help="Processes; else one a processor."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in SI.")
-def atlas(scene_height: float | None, as_json: bool, **options: Any) -> None:
+def atlas(
+    scene_height: float | None, workers: int | None, as_json: bool, **options: Any
+) -> None:
     """Say what a foot can do with every branch of a grid of heights and radii.
 
     Touchable: two opposable fingers touch at once; feasible: they are tangent;
@@ -93,7 +99,9 @@ def atlas(scene_height: float | None, as_json: bool, **options: Any) -> None:
         raise click.UsageError("--scene-height-mm goes with --html.")
     foot, grid = _task(**options)
     with waiting("starting", quiet=as_json) as sign:
-        found = branch_atlas(foot, grid, progress=sign.update)
+        found = branch_atlas(
+            foot, grid, workers=workers or os.cpu_count() or 1, progress=sign.update
+        )
         written = _write(found, files, scene_height)
     if as_json:
         document = atlas_output.atlas_document(found)

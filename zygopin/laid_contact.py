@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from zygopin.projection import Complexes, Floats, ProjectedFinger, wrap_angle
 
@@ -31,7 +32,7 @@ def lay_on(
     free: Floats,
     centre: Complexes,
     radius: Floats,
-    side: int,
+    side: ArrayLike,
     solid: bool,
 ) -> Contact:
     """Lay a phalanx on its circle, by the joint before it.
@@ -41,7 +42,7 @@ def lay_on(
         free: Controls of the joints before that one, shape (…, k − 1).
         centre: Centres of the circles [m], shape (…).
         radius: Their radii without skin [m], shape (…).
-        side: `PALM` or `BACK`, the side of the toe that touches.
+        side: `PALM` or `BACK`, the side of the toe that touches; or one for each.
         solid: Whether the phalanges before stay out of the circle.
 
     Returns:
@@ -57,7 +58,7 @@ def lay_on(
             depth = radius + finger.radii[earlier] - segment_gap(junction, step)
             excess += np.maximum(depth, 0.0)
         junction = junction + step
-    skin = radius + finger.radii[rank - 1]
+    side, skin = np.asarray(side), radius + finger.radii[rank - 1]
     square = junction.real**2 + junction.imag**2
     inside = square < skin**2
     tangent = np.sqrt(np.where(inside, 0.0, square - skin**2))

@@ -42,6 +42,9 @@ BELOW = np.array([0.0, 0.0, -50.0])
 MODE_SHARE = 3
 """Grasps that are compared for each set of tangent phalanges."""
 
+PROVED = "no grasp with the toes' palms exists"
+"""How the reason begins where that is proved."""
+
 Value = Callable[[GraspReport], float]
 
 
@@ -78,10 +81,12 @@ class PerchPlan:
     def existence(self) -> Existence:
         """Whether the branch can be grasped at all: found, none (proved), undecided.
 
-        Proofs hold for contacts within the report's tolerance. They are looked for
-        when this is first asked for, which takes some seconds at most. Where the height
-        was searched for, `NONE` is said of the heights of `column` alone. A branch
-        with an end in reach of the toes stays undecided.
+        Proofs are about the toes' palms, the sides to which they flex: `NONE` says
+        nothing of grasps with a toe's back. They hold for contacts within the report's
+        tolerance. They are looked for when this is first asked for, which takes some
+        seconds at most. Where the height was searched for, `NONE` is said of the
+        heights of `column` alone. A branch with an end in reach of the toes stays
+        undecided.
         """
         if self.grasping:
             return Existence.FOUND
@@ -93,8 +98,8 @@ class PerchPlan:
     def reason(self) -> str | None:
         """Why this is no feasible grasp, in one line; None where it is one.
 
-        It begins with "no grasp exists" where that is proved. Looked for when it is
-        first asked for: the proof takes time, and a remedy many more plans.
+        It begins with `PROVED` where that is proved. Looked for when it is first asked
+        for: the proof takes time, and a remedy many more plans.
         """
         fact = why_not(self.report)
         if fact is None:
@@ -103,8 +108,8 @@ class PerchPlan:
         if self.existence is not Existence.NONE:
             return text
         if self.column is None or not self.searched:
-            return f"no grasp exists: {text}"
-        return f"no grasp exists at {len(self.column.heights)} heights tried: {text}"
+            return f"{PROVED}: {text}"
+        return f"{PROVED} at {len(self.column.heights)} heights tried: {text}"
 
 
 def plan_perch(

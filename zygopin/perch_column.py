@@ -14,17 +14,11 @@ from zygopin.clearance import Floats
 from zygopin.foot import Foot
 from zygopin.grasp import Criteria
 from zygopin.perch_height import lowered
-from zygopin.tangent_poses import FARTHEST, Aim
+from zygopin.quarter_turn import CLEAR, QUARTER
+from zygopin.tangent_poses import FARTHEST
 from zygopin.tangent_proof import farthest_wrap
 from zygopin.toe_contacts import ToeSearch
 from zygopin.touch import TouchIntervals, touch_intervals
-
-QUARTER = np.pi / 2
-"""Least angle between two contacts of a grasp [rad]."""
-
-CLEAR = 1e-6
-"""What wraps must lack to a quarter turn for a proof [rad]: more than the rounding
-that verdicts allow."""
 
 Booleans = NDArray[np.bool_]
 
@@ -162,6 +156,6 @@ class Column:
             As for `farthest`.
         """
         wanted = self.opposable[:, None, None] & where[:, None]
-        laid = self.search.poses(wanted, aim=Aim(aim))
+        laid = self.search.poses(wanted, aim=aim)
         wrap, controls = laid.wrap, laid.controls
         return wrap[..., 0], tuple(each[:, 0] for each in controls)

@@ -9,9 +9,12 @@ from zygopin.foot import Foot
 from zygopin.perch_column import Column
 from zygopin.perch_combinations import Combinations, combinations, opposed
 from zygopin.records import joined
-from zygopin.survey import AIMS
 from zygopin.tangent_poses import FARTHEST
 from zygopin.wrap import FingerPoses, given_poses
+
+AIMS = (1.2, 0.8, 1.7, 0.3, 2.4, 1.0, 1.4, 2.0, 0.55)
+"""Angles to which toes are wrapped in turn [rad] where toes that are wrapped as far
+as can be run into each other."""
 
 
 def grasp_by_tangents(

@@ -7,7 +7,6 @@ Branches next to one another take poses from each other.
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import product
 from typing import NamedTuple
@@ -36,6 +35,15 @@ TOGETHER = 8192
 
 STEPS = (0.2, 0.1, 0.05, 0.02, 0.01, 0.003)
 """Sizes of the random steps by which poses are improved, in controls."""
+
+BESIDE = ((-1, 0), (1, 0), (0, -1), (0, 1))
+"""Rows and columns to the next branches."""
+
+EDGE_STEPS = 48
+"""Steps at the edge of the branches with a pose: it moves on by one in each."""
+
+FEWER = 0.4
+"""Share of the joints that some of these steps turn."""
 
 ROUNDING = 1e-12
 """Excess of a pose that fits, over the length of the first phalanx."""
@@ -77,18 +85,6 @@ class TangentPoses:
         return wrap, chosen[0, ..., :count]
 
 
-class Aim(NamedTuple):
-    """Which poses are sought, and how hard.
-
-    Attributes:
-        wrap: Poses wrapped as near to this angle as can be [rad].
-        effort: How many times as many poses are tried on each branch.
-    """
-
-    wrap: float = FARTHEST
-    effort: int = 1
-
-
 def tangent_poses(
     finger: ProjectedFinger,
     grid: BranchGrid,
@@ -96,7 +92,7 @@ def tangent_poses(
     *,
     side: int = PALM,
     solid: bool = True,
-    aim: Aim | None = None,
+    aim: float = FARTHEST,
 ) -> TangentPoses:
     """Poses of a finger on each branch, wrapped as near to an angle as can be found.
 
@@ -107,7 +103,7 @@ def tangent_poses(
             one, shape (K, H, R).
         side: `PALM` or `BACK`, the side of the toe that touches.
         solid: Keep the phalanges before the tangent one out of the branch.
-        aim: The angle, and how hard to try; None: as far round as can be.
+        aim: The angle [rad].
 
     Returns:
         The poses; those found are exact up to rounding, none found proves nothing.
@@ -117,13 +113,12 @@ def tangent_poses(
     controls = np.zeros((count, *grid.shape, count))
     ranks = () if finger.edgewise else reversed(range(count))
     sought = [i for i in ranks if wanted[i].any()]
-    quest = _Quest(side, solid, *(aim or Aim()))
-    searches = (_Search(finger, grid, wanted[i], i + 1, quest) for i in sought)
-    with ThreadPoolExecutor() as pool:
-        for i, table in zip(sought, pool.map(_Search.run, searches), strict=True):
-            wrap[i] = np.where(table.score > -NOWHERE, table.wrap, np.nan)
-            controls[i, ..., :i] = table.free
-            controls[i, ..., i] = np.minimum(table.closing, 1.0)  # but for rounding
+    quest = _Quest(side, solid, aim)
+    for i in sought:
+        table = _Search(finger, grid, wanted[i], i + 1, quest).run()
+        wrap[i] = np.where(table.score > -NOWHERE, table.wrap, np.nan)
+        controls[i, ..., :i] = table.free
+        controls[i, ..., i] = np.minimum(table.closing, 1.0)  # but for rounding
     return TangentPoses(wrap, controls)
 
 
@@ -146,12 +141,11 @@ class _Table(NamedTuple):
 
 
 class _Quest(NamedTuple):
-    """What poses are sought, and how hard."""
+    """What poses are sought."""
 
     side: int
     solid: bool
     aim: float
-    effort: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,9 +160,9 @@ class _Search:
 
     def run(self) -> _Table:
         """From the coarse grid to the fine one, each from the poses of the last."""
-        # A generator for each search, so that threads do not change what is found.
+        # A generator for each search: none depends on what else is searched.
         rng = np.random.default_rng((self.rank, self.quest.side + 1))
-        few = self.wanted.sum() <= FEW or self.quest.effort > 1
+        few = self.wanted.sum() <= FEW
         strides = [
             s
             for s in STRIDES
@@ -179,6 +173,7 @@ class _Search:
         for stride in strides[1:]:
             table, places = self._refined(table, places, stride)
             self._improve(table, places, rng)
+        self._extend(table, places, rng)
         return table
 
     def _sampled(self, stride: int) -> tuple[_Table, tuple[Indices, Indices]]:
@@ -186,7 +181,7 @@ class _Search:
         places = self._places(stride)
         table = _Table.empty((len(places[0]), len(places[1])), self.rank)
         where = self._where(places)
-        grid = _regular(self.rank - 1, self.quest.effort)
+        grid = _regular(self.rank - 1)
         # So many at once that the arrays stay in the cache and calls cost little.
         at_once = max(1, TOGETHER // max(len(where[0]), 1))
         for start in range(0, len(grid), at_once):
@@ -221,17 +216,50 @@ class _Search:
         if self.rank == 1:
             return
         where = self._where(places)
-        for size in STEPS * self.quest.effort:
+        for size in STEPS:
             for _ in range(2):
                 free = table.free[where]
                 step = size * rng.standard_normal(free.shape)
                 self._offer(table, places, where, np.clip(free + step, 0.0, 1.0))
-            for rows, columns in ((-1, 0), (1, 0), (0, -1), (0, 1)):
-                near = (
-                    np.clip(where[0] + rows, 0, len(places[0]) - 1),
-                    np.clip(where[1] + columns, 0, len(places[1]) - 1),
-                )
-                self._offer(table, places, where, table.free[near])
+            self._offer_near(table, places, where)
+
+    def _extend(
+        self,
+        table: _Table,
+        places: tuple[Indices, Indices],
+        rng: np.random.Generator,
+    ) -> None:
+        """More steps where there is no pose but one next to it, of all joints or some.
+
+        At the edge of what is possible joints are at their limits: steps of the others
+        alone are what leads on. Of few branches each may be at the edge.
+        """
+        few = self.wanted.sum() <= FEW
+        for _ in range(EDGE_STEPS if self.rank > 1 else 0):
+            found = table.score > -NOWHERE
+            where = np.nonzero(self.wanted & ~found & (_beside(found) | few))
+            if not len(where[0]):
+                return
+            self._offer_near(table, places, where)
+            free = table.free[where]
+            size = 10 ** rng.uniform(-3, -0.7, (len(free), 1))
+            step = size * rng.standard_normal(free.shape)
+            step *= rng.random(free.shape) < rng.choice([FEWER, 1.0], (len(free), 1))
+            self._offer(table, places, where, np.clip(free + step, 0.0, 1.0))
+
+    def _offer_near(
+        self,
+        table: _Table,
+        places: tuple[Indices, Indices],
+        where: tuple[Indices, ...],
+    ) -> None:
+        """Offer the poses of the branches next to some."""
+        for rows, columns in BESIDE:
+            near = (
+                np.clip(where[0] + rows, 0, len(places[0]) - 1),
+                np.clip(where[1] + columns, 0, len(places[1]) - 1),
+            )
+            self._offer(table, places, where, table.free[near])
 
     def _places(self, stride: int) -> tuple[Indices, Indices]:
         """Rows and columns of a coarser grid, the last ones included."""
@@ -286,9 +314,19 @@ class _Search:
         table.closing[kept] = closing[better]
 
 
-def _regular(count: int, effort: int) -> Floats:
+def _beside(marks: Booleans) -> Booleans:
+    """Branches next to marked ones."""
+    near = np.zeros_like(marks)
+    near[1:] |= marks[:-1]
+    near[:-1] |= marks[1:]
+    near[:, 1:] |= marks[:, :-1]
+    near[:, :-1] |= marks[:, 1:]
+    return near
+
+
+def _regular(count: int) -> Floats:
     """A regular grid of controls, of at most about `SAMPLES` points, (s, count)."""
     if count == 0:
         return np.zeros((1, 0))
-    most = int(min(max((SAMPLES * effort) ** (1 / count) + 1e-9, 2), 33))
+    most = int(min(max(SAMPLES ** (1 / count) + 1e-9, 2), 33))
     return np.array(list(product(np.linspace(0.0, 1.0, most), repeat=count)))

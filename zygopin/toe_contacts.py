@@ -12,11 +12,8 @@ from zygopin.branch_grid import BranchGrid
 from zygopin.contact_hull import Criterion
 from zygopin.foot import Foot
 from zygopin.projection import BACK, PALM, Floats, ProjectedFinger
-from zygopin.tangent_poses import Aim, tangent_poses
+from zygopin.tangent_poses import FARTHEST, tangent_poses
 from zygopin.tangent_proof import unproved
-
-EFFORT = 4
-"""How many times as many poses are tried where neither a pose nor a proof was found."""
 
 Booleans = NDArray[np.bool_]
 Codes = NDArray[np.int8]
@@ -91,8 +88,6 @@ class ToeSearch:
         """
         poses = self.poses(wanted, solid=criterion.solid)
         left = self.possible(wanted & ~poses.found, criterion)
-        again = self.poses(left, solid=criterion.solid, aim=Aim(effort=EFFORT))
-        poses = poses.joined(again)
         answer = np.where(left, Answer.UNDECIDED, Answer.NO)
         answer[poses.found] = Answer.YES
         answer[~wanted] = Answer.UNDECIDED
@@ -105,7 +100,7 @@ class ToeSearch:
         wanted: Booleans,
         *,
         solid: bool = True,
-        aim: Aim | None = None,
+        aim: float = FARTHEST,
     ) -> ToePoses:
         """Poses wrapped as near to an angle as they are found.
 
@@ -114,7 +109,7 @@ class ToeSearch:
         Args:
             wanted: Branches in question for each finger, shape (F, H, R).
             solid: Keep the phalanges before the tangent one out of the branch.
-            aim: The angle, and how hard to try; None: as far round as can be.
+            aim: The angle [rad].
 
         Returns:
             The poses.
@@ -122,7 +117,6 @@ class ToeSearch:
         shape = (len(self.fingers), *self.grid.shape)
         wrap, found = np.full(shape, np.nan), np.zeros(shape, dtype=bool)
         controls = tuple(np.zeros((*self.grid.shape, count)) for count in self.counts)
-        wrap_aim = (aim or Aim()).wrap
         for side in (PALM, BACK):
             missing = wanted & ~found
             for members in self._alike():
@@ -132,7 +126,7 @@ class ToeSearch:
                     leader, self.grid, asked, side=side, solid=solid, aim=aim
                 )
                 for finger in members:
-                    angle, pose = poses.best(self.counts[finger], wrap_aim)
+                    angle, pose = poses.best(self.counts[finger], aim)
                     new = missing[finger] & np.isfinite(angle)
                     found[finger] |= new
                     controls[finger][new] = pose[new]
@@ -141,7 +135,12 @@ class ToeSearch:
         return ToePoses(found, wrap, controls)
 
     def possible(
-        self, asked: Booleans, criterion: Criterion, beyond: Floats | None = None
+        self,
+        asked: Booleans,
+        criterion: Criterion,
+        beyond: Floats | None = None,
+        *,
+        enough: bool = False,
     ) -> Booleans:
         """Branches for which tangency was not disproved.
 
@@ -150,13 +149,17 @@ class ToeSearch:
             criterion: What counts as a tangent phalanx.
             beyond: Only contacts count whose wrap, times the criterion's sense, is
                 more than this [rad], shape (F, H, R).
+            enough: One finger that is left is enough for a branch: the others are not
+                asked, and stay out.
 
         Returns:
             Those that are left, shape (F, H, R).
         """
         left = np.zeros_like(asked)
-        for members in self._alike():
+        # Short fingers first: their proofs cost least, and may be enough.
+        for members in reversed(self._alike()):
             leader = self.fingers[members[0]]
+            asked = asked & ~(left.any(axis=0) & enough)
             bounds = np.where(asked, -np.inf if beyond is None else beyond, np.inf)
             least = [
                 np.min([bounds[i] for i in members if self.counts[i] > rank], axis=0)
@@ -170,6 +173,17 @@ class ToeSearch:
                 some = found[: self.counts[finger]].any(axis=0)
                 left[finger] = asked[finger] & some
         return left
+
+    def opposed(self, i: int, j: int) -> bool:
+        """Whether two fingers flex around the branches in opposite senses.
+
+        Args:
+            i: Index of one.
+            j: Index of the other.
+        """
+        frames = (self.fingers[k].frame for k in (i, j))
+        senses = [float(np.cross(*frame) @ self.grid.axis) for frame in frames]
+        return senses[0] * senses[1] < 0
 
     def _by_rank(self, members: list[int], asked: Booleans) -> Booleans:
         """Branches in question for each phalanx of the longest of alike fingers."""

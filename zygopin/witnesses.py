@@ -17,6 +17,7 @@ from zygopin.grasp import (
     check_grasp,
     least_product,
 )
+from zygopin.projection import BACK, PALM
 
 Floats = NDArray[np.float64]
 Booleans = NDArray[np.bool_]
@@ -38,6 +39,8 @@ class Witnesses:
         merit: What each pose shows, see `MERITS`; 0 without one, shape (H, R).
         controls: The poses, shape (H, R, P); NaN without one.
         toes: Tangent fingers of the poses, shape (H, R).
+        sides: Sides of their phalanges that are tangent, `PALM` or `BACK`; 0: neither,
+            shape (H, R, P).
     """
 
     foot: Foot
@@ -46,11 +49,14 @@ class Witnesses:
     merit: Indices = field(init=False)
     controls: Floats = field(init=False)
     toes: Indices = field(init=False)
+    sides: NDArray[np.int8] = field(init=False)
 
     def __post_init__(self) -> None:
         self.merit = np.zeros(self.grid.shape, dtype=np.intp)
         self.toes = np.zeros(self.grid.shape, dtype=np.intp)
-        self.controls = np.full((*self.grid.shape, self.foot.phalanx_count), np.nan)
+        shape = (*self.grid.shape, self.foot.phalanx_count)
+        self.controls = np.full(shape, np.nan)
+        self.sides = np.zeros(shape, dtype=np.int8)
 
     def offer(self, cells: tuple[Indices, ...], controls: Floats) -> None:
         """Keep poses that enter nothing and show more than those there are.
@@ -65,11 +71,33 @@ class Witnesses:
         report = check_grasp(self.foot, controls, branches, criteria=self.criteria)
         toes = touched(self.foot, report.tangent)
         merit = self._merit(report, toes.sum(axis=-1))
-        better = merit > self.merit[cells]
+        # The best last: of several for one branch it is what stays.
+        better = np.argsort(merit, kind="stable")
+        better = better[(merit > self.merit[cells])[better]]
         kept = tuple(axis[better] for axis in cells)
         self.merit[kept] = merit[better]
         self.toes[kept] = toes.sum(axis=-1)[better]
         self.controls[kept] = controls[better]
+        self.sides[kept] = tangent_sides(report)[better]
+
+    def confirm(self) -> None:
+        """Check all poses through Pinocchio and FCL: what both engines show remains."""
+        cells = np.nonzero(self.merit)
+        if not len(cells[0]):
+            return
+        branches = self.grid.at(*cells)
+        report = check_grasp(
+            self.foot,
+            self.controls[cells],
+            branches,
+            engine="fcl",
+            criteria=self.criteria,
+        )
+        toes = touched(self.foot, report.tangent).sum(axis=-1)
+        merit = np.minimum(self.merit[cells], self._merit(report, toes))
+        self.merit[cells], self.toes[cells] = merit, np.minimum(self.toes[cells], toes)
+        lost = tuple(axis[merit == 0] for axis in cells)
+        self.controls[lost], self.sides[lost], self.toes[lost] = np.nan, 0, 0
 
     def shows(self, verdict: str) -> Booleans:
         """Branches whose pose shows a verdict.
@@ -109,6 +137,19 @@ def palmar(report: GraspReport) -> Booleans:
     # A bone moves toward its palm as it turns about the flexion's axis.
     toward = np.cross(across[foot.finger_of_phalanx], lines)
     return np.asarray(dot(report.normal, toward) < 0)
+
+
+def tangent_sides(report: GraspReport) -> NDArray[np.int8]:
+    """Sides with which phalanges are tangent.
+
+    Args:
+        report: The report.
+
+    Returns:
+        `PALM` or `BACK`; 0 where a phalanx is not tangent, shape (…, P).
+    """
+    sides = np.where(palmar(report), PALM, BACK)
+    return np.where(report.tangent, sides, 0).astype(np.int8)
 
 
 def touched(foot: Foot, phalanges: Booleans) -> Booleans:
