@@ -81,6 +81,8 @@ def test_single_numbers_are_grids_of_one():
         ({"offset": (0.0,)}, "offset.shape"),
         ({"offset": [(0.0, 1.0)] * 2}, "offset.shape"),
         ({"offset": (0.0, math.nan)}, "offset"),
+        ({"offset": (1e300, 0.0)}, "centre"),
+        ({"heights": (-1e300, 0.0)}, "centre"),
         ({"heights": np.arange(4096), "radii": np.arange(1, 1026)}, "grid .* cells"),
     ],
 )

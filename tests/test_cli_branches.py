@@ -161,6 +161,7 @@ def test_nothing_found_is_status_1(run):
         (("--pair", "1,thumb"), "unknown finger 'thumb'"),
         (("--levels", "1"), "number of levels = 1"),
         (("--levels", "few"), "--levels = few"),
+        (("--levels", "400", "--pair", "3,4"), "take fewer levels"),
         (("--levels", "0,0.5"), "add 0 and 1"),
         (("--levels", "0,x,1"), "try 0,0.5,1"),
         (("--section", "circle"), "--section goes with --tied"),

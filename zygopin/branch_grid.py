@@ -42,10 +42,11 @@ class BranchGrid:
     ) -> None:
         level = _monotone("heights", heights)
         thick = _monotone("radii", radii)
-        first = Branch(float(thick[0]), (0.0, 0.0, 0.0), axis)
         across = checks.array("offset", offset)
-        checks.shaped("axis", first.axis, (3,))
         checks.shaped("offset", across, (2,))
+        for end in level[[0, -1]]:
+            first = Branch(float(thick[0]), (*across, end), axis)
+        checks.shaped("axis", first.axis, (3,))
         if len(thick) > 1 and thick[1] < thick[0]:
             raise ParameterError("radii", thick, "rising", "sort them")
         if len(level) * len(thick) > MOST_BRANCHES:

@@ -26,6 +26,9 @@ LISTED = 20
 MOST_LISTED = 100_000
 """Solutions in the JSON, unless said otherwise: about a hundred megabytes."""
 
+MOST_SYSTEMS = 10**12
+"""Systems that are solved: at some ten million a second."""
+
 
 @dataclass
 class _Tally:
@@ -198,7 +201,13 @@ def _task(pair: str, levels: str, tied: bool, section: Any, **options: Any) -> _
         from zygopin.branch_search import count_systems, iter_stable_branches
         from zygopin.placement import Placement
 
-        title = f"{name}: {count_systems(foot, fingers, values)} systems"
+        count = count_systems(foot, fingers, values)
+        if count > MOST_SYSTEMS:
+            allowed = f"at most {MOST_SYSTEMS:.0e}, hours of work"
+            raise ParameterError(
+                "number of systems", count, allowed, "take fewer levels"
+            )
+        title = f"{name}: {count} systems"
         there = Placement(axis, x)
         run = partial(iter_stable_branches, foot, fingers, values, placement=there)
         return _Task(title, known, None, run)

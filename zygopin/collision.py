@@ -121,9 +121,9 @@ def least_skin_distance(
     rows, columns = np.nonzero(_may_be_least(flat, skin, pairs))
     solids = _capsules(flat.reshape(-1, 2, 3), np.tile(skin, len(flat)))
     first, second = (rows * count + side[columns] for side in pairs)
-    distance, _, _ = _nearest(
-        [solids[i] for i in first], [solids[i] for i in second], signed=False
-    )
+    one, other = ([solids[i] for i in side] for side in (first, second))
+    # Without nearest points: half the time.
+    distance = np.fromiter(map(fcl.distance, one, other), float, len(rows))
     least = np.full(len(flat), np.inf)
     np.minimum.at(least, rows, distance)
     return least.reshape(bones.shape[:-3]) * unit

@@ -83,6 +83,8 @@ def contact_possible(
     rank: int,
     side: int,
     criterion: Criterion,
+    *,
+    stages: int = len(STAGES),
 ) -> Booleans:
     """Branches on which a contact was not ruled out.
 
@@ -92,6 +94,7 @@ def contact_possible(
         rank: Number k of the phalanx.
         side: `PALM` or `BACK`, the side of the toe that touches.
         criterion: What counts as tangent.
+        stages: How many of `STAGES` are gone through, the first ones.
 
     Returns:
         A mask, shape (n,); elsewhere no contact is possible.
@@ -99,8 +102,8 @@ def contact_possible(
     possible = np.zeros(len(circles.radius), dtype=bool)
     open_ = np.arange(len(possible))
     # A phalanx with few joints before it has stages that are alike.
-    stages = dict.fromkeys((min(bends, rank - 1), fine) for bends, fine in STAGES)
-    for bends, fine in stages:
+    chosen = [(min(bends, rank - 1), fine) for bends, fine in STAGES[:stages]]
+    for bends, fine in dict.fromkeys(chosen):
         search = _Search(finger, circles, rank, side, criterion, bends, fine)
         left, given_up = search.possible(open_)
         possible[open_[given_up]] = True

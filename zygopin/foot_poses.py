@@ -20,7 +20,7 @@ from zygopin.touch import TouchIntervals
 from zygopin.touching import touching_controls
 from zygopin.witnesses import MERITS, Witnesses, opposing, tangent_sides
 
-MOST_PLANS = 24
+MOST_PLANS = 12
 """Branches for which the whole foot's pose is planned, where toes by themselves could
 grasp and no pose that was moved there does: about a tenth of a second each."""
 

@@ -37,13 +37,14 @@ class Survey:
         self.criterion = Criterion(Criteria().metres(foot))
         self.every = (len(foot.fingers), *grid.shape)
         valid = np.broadcast_to(grid.valid, self.every)
-        self.toes = self.search.contacts(valid, self.criterion)
+        self.toes = self.search.poses(valid)
         rows = np.arange(len(grid.heights))[:, None]
         self.intervals: TouchIntervals = touch_intervals(foot, grid.at(rows, 0))
         parts = self.search, self.toes, self.intervals, self.witnesses
         FootPoses(foot, *parts).join()
         self.witnesses.confirm()
         self.loose, self.loose_controls = self._loose()
+        self.tangent = self._tangent()
         self.grasps_left = self._grasps_left()
 
     @property
@@ -55,7 +56,7 @@ class Survey:
     @property
     def feasible(self) -> Codes:
         """Whether two opposable fingers are tangent at once and nothing enters."""
-        possible = self._pairs(self.toes.answer != Answer.NO)
+        possible = self._pairs(self.tangent)
         possible &= (self.touchable != Answer.NO) & (self.stable != Answer.NO)
         return self._answers(self.witnesses.shows("feasible"), possible)
 
@@ -75,7 +76,7 @@ class Survey:
     @property
     def toe_counts(self) -> NDArray[np.int8]:
         """Fewest and most fingers tangent at once with nothing entering, (H, R, 2)."""
-        some = (self.toes.answer != Answer.NO) & ~self.entered
+        some = self.tangent & ~self.entered
         most = np.where(self.grid.valid, some.sum(axis=0), 0)
         return np.stack([self.witnesses.toes, most], axis=-1).astype(np.int8)
 
@@ -83,10 +84,10 @@ class Survey:
     def wraps(self) -> Floats:
         """The largest wrap of a finger, and a bound on it [rad], shape (H, R, 2)."""
         bound = np.full(self.grid.shape, -np.inf)
-        for finger, answer in zip(self.search.fingers, self.toes.answer, strict=True):
+        for finger, possible in zip(self.search.fingers, self.tangent, strict=True):
             for rank in range(1, len(finger.lengths) + 1):
                 most = farthest_wrap(finger, self.grid, rank, self.criterion.tolerance)
-                bound = np.maximum(bound, np.where(answer != Answer.NO, most, -np.inf))
+                bound = np.maximum(bound, np.where(possible, most, -np.inf))
         found = np.fmax.reduce(self.toes.wrap, axis=0)
         bound = np.minimum(bound, 2 * np.pi + BEHIND)
         bound = np.where(np.isfinite(bound) & self.grid.valid, bound, np.nan)
@@ -116,6 +117,18 @@ class Survey:
         """Whether both of some opposable fingers are marked, (F, H, R) to (H, R)."""
         return opposing(self.foot, np.moveaxis(fingers, 0, -1))
 
+    def _tangent(self) -> Booleans:
+        """Whether each finger may be tangent with nothing entering, shape (F, H, R).
+
+        Where a pose of the foot is known only the number of toes depends on it: the
+        proof is then sought with little work.
+        """
+        found, shown = self.toes.found, self.witnesses.shows("feasible")
+        asked = ~found & self.grid.valid & (self.loose != Answer.NO)
+        left = self.search.possible(asked & ~shown, self.criterion)
+        left |= self.search.possible(asked & shown, self.criterion, stages=1)
+        return np.asarray(found | left)
+
     def _grasps_left(self) -> Booleans:
         """Branches on which a grasp with the palms was not disproved, shape (H, R)."""
         open_ = self.grid.valid & (self.feasible != Answer.NO)
@@ -124,7 +137,7 @@ class Survey:
             self.search,
             self.foot.opposable_pairs,
             open_,
-            self.toes.answer != Answer.NO,
+            self.tangent,
             self.toes.wrap,
             self.criterion.tolerance,
         )

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin.branch_grid import BranchGrid
-from zygopin.contact_hull import Circles, Criterion, contact_possible
+from zygopin.contact_hull import STAGES, Circles, Criterion, contact_possible
 from zygopin.projection import BACK, BEHIND, PALM, Floats, ProjectedFinger
 
 Booleans = NDArray[np.bool_]
@@ -21,6 +21,7 @@ def unproved(
     criterion: Criterion,
     *,
     beyond: Floats | None = None,
+    stages: int = len(STAGES),
 ) -> Booleans:
     """Branches on which a finger may yet have a tangent phalanx.
 
@@ -31,6 +32,7 @@ def unproved(
         criterion: What counts as a tangent phalanx.
         beyond: Only contacts count whose wrap, times the criterion's sense, is more
             than this [rad], broadcast to shape (K, H, R); None: any.
+        stages: How many of the search's `STAGES` are gone through.
 
     Returns:
         Those of the branches for which no proof was found, shape (K, H, R): on the
@@ -47,7 +49,9 @@ def unproved(
         cells = np.nonzero(near)
         centre, radius = grid.centres(finger)[cells[0]], grid.radii[cells[1]]
         circles = Circles(centre, radius, least[cells])
-        left = contact_possible(finger, circles, index + 1, side, criterion)
+        left = contact_possible(
+            finger, circles, index + 1, side, criterion, stages=stages
+        )
         result[index][cells] |= left
     return result
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin.branch_grid import BranchGrid
-from zygopin.contact_hull import Criterion
+from zygopin.contact_hull import STAGES, Criterion
 from zygopin.foot import Foot
 from zygopin.projection import BACK, PALM, Floats, ProjectedFinger
 from zygopin.tangent_poses import FARTHEST, tangent_poses
@@ -141,6 +141,7 @@ class ToeSearch:
         beyond: Floats | None = None,
         *,
         enough: bool = False,
+        stages: int = len(STAGES),
     ) -> Booleans:
         """Branches for which tangency was not disproved.
 
@@ -151,6 +152,7 @@ class ToeSearch:
                 more than this [rad], shape (F, H, R).
             enough: One finger that is left is enough for a branch: the others are not
                 asked, and stay out.
+            stages: How many of the search's `STAGES` are gone through.
 
         Returns:
             Those that are left, shape (F, H, R).
@@ -167,7 +169,12 @@ class ToeSearch:
             ]
             open_ = self._by_rank(members, asked)
             found = unproved(
-                leader, self.grid, open_, criterion, beyond=np.stack(least)
+                leader,
+                self.grid,
+                open_,
+                criterion,
+                beyond=np.stack(least),
+                stages=stages,
             )
             for finger in members:
                 some = found[: self.counts[finger]].any(axis=0)
