@@ -86,8 +86,8 @@ def graspable_range(atlas: Atlas) -> tuple[float, float] | None:
 def largest_wrap(atlas: Atlas) -> dict[str, float] | None:
     """The largest wrap of a toe that a pose shows on a branch that is grasped.
 
-    On others a toe may lie on the branch from behind, which counts as nearly all the
-    way round.
+    On others a palm may touch farther back than a quarter turn, which counts as nearly
+    all the way round.
 
     Args:
         atlas: The atlas.
