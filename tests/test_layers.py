@@ -98,6 +98,7 @@ LAYERS = (
     "perch_height",
     "perch_column",
     "perch_tangents",
+    "perch_surroundings",
     "perch_candidates",
     "perch_proof",
     "perch",

@@ -21,6 +21,7 @@ from zygopin.perch_column import Column
 from zygopin.perch_combinations import all_poses, combinations
 from zygopin.perch_output import solution_documents, solution_rows
 from zygopin.perch_proof import Existence, disproved
+from zygopin.perch_surroundings import surrounding_grasp
 from zygopin.preference import SHORTLIST, flexion_left
 from zygopin.rest import resting_branch
 
@@ -73,6 +74,20 @@ def test_a_grasp_between_the_grid_angles_is_found():
     assert coarse.existence is Existence.UNDECIDED
     assert plan.grasping
     assert check_grasp(PARROT, plan.controls, branch, engine="fcl").grasping
+
+
+def test_a_grasp_is_found_with_those_of_branches_around():
+    branch = Branch(0.42 * SIZE, (0, 0, -0.965 * SIZE), (0.21, 0.9, 0.38))
+    assert not search_perch(PARROT, branch).grasping
+    plan = plan_perch(PARROT, branch)
+    assert plan.existence is Existence.FOUND
+    assert check_grasp(PARROT, plan.controls, branch, engine="fcl").grasping
+
+
+def test_surroundings_of_a_branch_out_of_reach_have_no_grasp():
+    assert surrounding_grasp(PARROT, under(PARROT, 2.0)) is None
+    twig = Branch(1e-4 * SIZE, (0, 0, -3 * SIZE))
+    assert surrounding_grasp(PARROT, twig) is None
 
 
 # No where it is proved ------------------------------------------------------------

@@ -18,8 +18,9 @@ from zygopin.perch_combinations import (
     combinations,
 )
 from zygopin.perch_height import best_height
+from zygopin.perch_surroundings import surrounding_grasp
 from zygopin.perch_tangents import grasp_by_tangents
-from zygopin.wrap import FingerPoses
+from zygopin.wrap import FingerPoses, given_poses
 
 FINE_LEVELS = 11
 """Angles tried at each joint of a single branch that seems to have no grasp: a second
@@ -100,7 +101,7 @@ def laid_candidates(
     """What further searches find where closing toes found no grasp.
 
     Toes are laid on the branch by the tangent search; on a single endless branch they
-    are then closed again, from a finer grid.
+    are then closed again, from a finer grid, and looked for on branches around it.
 
     Args:
         column: The branch at the heights in question.
@@ -119,7 +120,20 @@ def laid_candidates(
     if grasp is not None:
         place, here, combined = grasp
         return Candidates(foot, column.branches[place], here, combined)
-    if single and column.endless[0]:
-        fine = search_candidates(foot, found.branch, FINE_LEVELS, find_height=False)
-        return fine if len(fine.grasping) else None
-    return None
+    if not (single and column.endless[0]):
+        return None
+    fine = search_candidates(foot, found.branch, FINE_LEVELS, find_height=False)
+    return fine if len(fine.grasping) else _surrounding(foot, found.branch)
+
+
+def _surrounding(foot: Foot, branch: Branch) -> Candidates | None:
+    """The grasp that is found together with those of branches around one."""
+    controls = surrounding_grasp(foot, branch)
+    if controls is None:
+        return None
+    one = np.zeros(1, dtype=np.intp)
+    poses = [
+        given_poses(foot, i, branch.broadcast((1,)), (one, controls[None, part]))
+        for i, part in enumerate(foot.finger_slices.values())
+    ]
+    return Candidates(foot, branch, poses, combinations(foot, poses))
