@@ -43,17 +43,6 @@ class ToePoses:
     wrap: Floats
     controls: tuple[Floats, ...]
 
-    def joined(self, others: ToePoses) -> ToePoses:
-        """The poses of both, those wrapped farther where both have one."""
-        better = others.found & ~(self.wrap >= others.wrap)
-        better &= ~self.found | np.isfinite(others.wrap)
-        pairs = zip(better, self.controls, others.controls, strict=True)
-        return ToePoses(
-            self.found | others.found,
-            np.where(better, others.wrap, self.wrap),
-            tuple(np.where(new[..., None], b, a) for new, a, b in pairs),
-        )
-
 
 @dataclass(frozen=True, eq=False)
 class ToeContacts(ToePoses):
