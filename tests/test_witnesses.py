@@ -145,23 +145,20 @@ def test_what_both_engines_show_is_confirmed(kept):
     assert np.array_equal(found.merit, before)
 
 
-def test_what_the_other_engine_does_not_show_is_dropped(kept):
+@pytest.mark.parametrize("control", [0.0, 1.0])
+def test_what_the_other_engine_does_not_show_is_dropped(kept, control):
     found = Witnesses(FOOT, GRID, Criteria())
     cells = np.nonzero(kept.merit)
     found.offer(cells, kept.controls[cells])
-    rows, columns = cells
-    assert len(rows) > 2
-    # A pose that enters, and one that touches nothing, said to show what others do.
-    found.controls[rows[0], columns[0]] = 1.0
-    found.controls[rows[1], columns[1]] = 0.0
+    # A pose that touches nothing, or enters, is said to show what another does.
+    row, column = (axis[0] for axis in cells)
+    found.controls[row, column] = control
     found.confirm()
-    for row, column in list(zip(rows, columns, strict=True))[:2]:
-        assert not found.merit[row, column]
-        assert np.isnan(found.controls[row, column]).all()
-        assert not found.sides[row, column].any()
-    assert np.array_equal(
-        found.merit[rows[2:], columns[2:]], kept.merit[rows[2:], columns[2:]]
-    )
+    assert not found.merit[row, column]
+    assert np.isnan(found.controls[row, column]).all()
+    assert not found.sides[row, column].any()
+    others = tuple(axis[1:] for axis in cells)
+    assert np.array_equal(found.merit[others], kept.merit[others])
 
 
 def test_sides_are_those_of_tangent_phalanges(kept):
