@@ -27,7 +27,7 @@ grasp and no pose that was moved there does: about a tenth of a second each."""
 LEVELS = 7
 """Angles tried at each joint in such a plan."""
 
-WAYS = 60
+WAYS = 40
 """Ways in which a toe is laid on a branch that another one only touches."""
 
 PLANS = 3
@@ -155,9 +155,13 @@ class FootPoses:
         rng, fixed = np.random.default_rng(0), np.ones(poses.shape[1], dtype=bool)
         fixed[its], sides[:, fixed] = False, 0
         for _ in range(WAYS):
-            tried = np.where(fixed, poses, turned(poses, rng))
-            moved = relaid(self.search.fingers, grid, cells, tried, sides)
-            self.witnesses.offer(cells, moved)
+            left = np.flatnonzero(~self.witnesses.shows("touching")[cells])
+            if not len(left):
+                return
+            here = rows[left], columns[left]
+            tried = np.where(fixed, poses[left], turned(poses[left], rng))
+            moved = relaid(self.search.fingers, grid, here, tried, sides[left])
+            self.witnesses.offer(here, moved)
 
     def _pairs(self, fingers: Booleans) -> Booleans:
         """Whether both of some opposable fingers are marked, (F, H, R) to (H, R)."""

@@ -25,9 +25,8 @@ STRIDES = (1, 8, 4, 2, 1)
 PLAIN = 4
 """Every so many rounds poses are moved as they are, in the others with random turns."""
 
-PATIENCE, LONGEST, TRIES = 8, 60, 8000
-"""Rounds in which nothing more is shown before this ends: at least, at most, and the
-poses tried in them that are enough."""
+PATIENCE, TRIES = 8, 1000
+"""Rounds in which nothing more is shown before this ends, and poses tried in them."""
 
 STEPS = (-3.0, -0.5)
 """Sizes of the random turns, in powers of ten of the controls' range."""
@@ -63,7 +62,7 @@ def propagate(
         idle, tries = idle + 1, tries + len(moved)
         if (witnesses.merit > before).any():
             idle, tries = 0, 0
-        if idle > (PATIENCE if tries > TRIES or not tries else LONGEST):
+        if idle > PATIENCE and (tries > TRIES or not tries):
             return
 
 
