@@ -16,6 +16,7 @@ from zygopin import (
     check_grasp,
 )
 from zygopin.atlas import ROWS, VERDICTS
+from zygopin.atlas_parts import share_poses
 from zygopin.grasp import least_product
 from zygopin.witnesses import opposing, palmar, touched
 
@@ -171,6 +172,43 @@ def test_processes_share_the_work_and_change_nothing():
     assert told == [f"{n} of 201 heights" for n in (0, 101, 201)]
     # Interleaved as they should be: heights next to one another mostly agree.
     assert (np.diff(one.grasping[:, 0]) != 0).sum() < 12
+
+
+def test_parts_of_a_map_share_their_poses():
+    size = SMALL.size
+    grid = BranchGrid(
+        np.linspace(-0.6, -0.75, 9) * size, np.linspace(0.3, 0.5, 8) * size
+    )
+    whole = branch_atlas(SMALL, grid)
+    arrays = {
+        name: np.array(getattr(whole, name))
+        for name in (*VERDICTS, "toes", "wrap", "controls", "stable_controls")
+    }
+    # Every second height is as if another part had found nothing there.
+    lost = np.zeros(grid.shape, dtype=bool)
+    lost[1::2] = whole.feasible[1::2] == Answer.YES
+    for name in ("touchable", "stable", "feasible"):
+        arrays[name][lost] = Answer.UNDECIDED
+    arrays["grasping"][lost & (whole.grasping == Answer.YES)] = Answer.UNDECIDED
+    arrays["controls"][lost] = np.nan
+    arrays["toes"][lost, 0] = 0
+    share_poses(SMALL, grid, arrays)
+    again = lost & (arrays["feasible"] == Answer.YES)
+    assert again.sum() > 0.6 * lost.sum()
+    assert (arrays["touchable"][again] == Answer.YES).all()
+    assert (arrays["stable"][again] == Answer.YES).all()
+    cells = np.nonzero(again)
+    poses = arrays["controls"][cells]
+    found = shown(check_grasp(SMALL, poses, grid.at(*cells), engine="fcl"))
+    assert found["feasible"].all()
+    grasping = arrays["grasping"][cells] == Answer.YES
+    assert np.array_equal(found["grasping"] & grasping, grasping)
+    # What was decided is as it was.
+    same = ~lost & (whole.feasible != Answer.UNDECIDED)
+    same &= whole.grasping != Answer.UNDECIDED
+    assert np.array_equal(
+        arrays["controls"][same], whole.controls[same], equal_nan=True
+    )
 
 
 def test_no_foot_grasps_without_opposite_toes():

@@ -89,6 +89,7 @@ LAYERS = (
     "foot_poses",
     "survey",
     "worker_process",
+    "atlas_parts",
     "atlas",
     "atlas_file",
     "atlas_regions",

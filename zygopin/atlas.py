@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin import checks
+from zygopin.atlas_parts import interleaved, share_poses
 from zygopin.branch import Branch
 from zygopin.branch_grid import BranchGrid
 from zygopin.errors import UnknownNameError
@@ -174,20 +175,10 @@ def branch_atlas(
             parts.append(part)
             done = sum(len(each["toes"]) for each in parts)
             tell(f"{done} of {len(grid.heights)} heights")
-    return Atlas(foot, grid, **_interleaved(parts))
-
-
-def _interleaved(parts: list[dict[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
-    """The arrays of all heights, from those of every so manieth one."""
-    rows = sum(len(part["toes"]) for part in parts)
-    whole = {
-        name: np.empty((rows, *array.shape[1:]), array.dtype)
-        for name, array in parts[0].items()
-    }
-    for first, part in enumerate(parts):
-        for name, array in part.items():
-            whole[name][first :: len(parts)] = array
-    return whole
+    arrays = interleaved(parts)
+    if count > 1:
+        share_poses(foot, grid, arrays)
+    return Atlas(foot, grid, **arrays)
 
 
 def _findings(foot: Foot, grid: BranchGrid) -> dict[str, NDArray[Any]]:
