@@ -86,8 +86,9 @@ def test_a_grasp_is_found_with_those_of_branches_around():
 
 def test_surroundings_of_a_branch_out_of_reach_have_no_grasp():
     assert surrounding_grasp(PARROT, under(PARROT, 2.0)) is None
-    twig = Branch(1e-4 * SIZE, (0, 0, -3 * SIZE))
-    assert surrounding_grasp(PARROT, twig) is None
+    for radius in (1e-4, 1.1e-6):
+        twig = Branch(radius * SIZE, (0, 0, -3 * SIZE))
+        assert surrounding_grasp(PARROT, twig) is None
 
 
 # No where it is proved ------------------------------------------------------------

@@ -7,6 +7,7 @@ import pytest
 
 from zygopin import Foot, check_grasp
 from zygopin.branch_grid import BranchGrid
+from zygopin.engine import make_engine
 from zygopin.grasp import Criteria
 from zygopin.projection import PALM
 from zygopin.toe_contacts import ToeSearch
@@ -141,7 +142,7 @@ def test_what_both_engines_show_is_confirmed(kept):
     cells = np.nonzero(kept.merit)
     found.offer(cells, kept.controls[cells])
     before = found.merit.copy()
-    found.confirm()
+    found.confirm(make_engine("fcl", FOOT))
     assert np.array_equal(found.merit, before)
 
 
@@ -153,7 +154,7 @@ def test_what_the_other_engine_does_not_show_is_dropped(kept, control):
     # A pose that touches nothing, or enters, is said to show what another does.
     row, column = (axis[0] for axis in cells)
     found.controls[row, column] = control
-    found.confirm()
+    found.confirm(make_engine("fcl", FOOT))
     assert not found.merit[row, column]
     assert np.isnan(found.controls[row, column]).all()
     assert not found.sides[row, column].any()

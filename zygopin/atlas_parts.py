@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin.branch_grid import BranchGrid
+from zygopin.engine import make_engine
 from zygopin.foot import Foot
 from zygopin.grasp import Criteria
 from zygopin.propagation import STRIDES, propagate
@@ -60,19 +61,21 @@ def _enter(arrays: Arrays, found: Witnesses, cells: tuple[Indices, ...]) -> None
     """Enter what new poses show, once the other engine has confirmed them."""
     new = Witnesses(found.foot, found.grid, found.criteria)
     new.offer(cells, found.controls[cells])
-    new.confirm()
+    new.confirm(make_engine("fcl", found.foot))
+    # Less than both engines show could be less than what there was.
+    whole = new.merit == found.merit
     for verdict, others in (
         ("touching", ("touchable",)),
         ("feasible", ("feasible", "stable")),
         ("grasping", ("grasping",)),
     ):
-        shown = new.shows(verdict)
+        shown = new.shows(verdict) & whole
         for name in others:
             arrays[name][shown] = Answer.YES
-    shown = new.merit > 0
+    shown = (new.merit > 0) & whole
     arrays["controls"][shown] = new.controls[shown]
     arrays["toes"][shown, 0] = new.toes[shown]
-    arrays["stable_controls"][new.shows("feasible")] = np.nan
+    arrays["stable_controls"][new.shows("feasible") & whole] = np.nan
 
 
 def _around(marks: Booleans, reach: int) -> Booleans:

@@ -20,10 +20,6 @@ from zygopin.projection import BEHIND, Complexes, Floats, ProjectedFinger
 Booleans = NDArray[np.bool_]
 Indices = NDArray[np.intp]
 
-DIRECTIONS = np.exp(1j * np.pi / 4 * np.array([0, 4, 2, 6, 1, 7, 3, 5]))
-"""Directions, relative to the junction's, in which the hull is bounded: those that rule
-out most come first."""
-
 STARTS = 16
 """Ranges of wrap that are looked at first."""
 

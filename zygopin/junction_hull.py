@@ -17,6 +17,12 @@ from zygopin.projection import Complexes, Floats, ProjectedFinger
 BINS = 2048
 """Parts of the pitch's range: less than 0.01 rad each for most fingers."""
 
+LOGARITHM = np.log2(np.maximum(np.arange(BINS + 1), 1)).astype(np.intp)
+"""Of 1, 2, …, BINS, rounded down."""
+
+KEPT = 16
+"""Phalanges whose tables are kept, of six megabytes each: a search needs three."""
+
 COARSE, FINE = 8, 32
 """Directions that are looked into first, and those for what is left."""
 
@@ -75,14 +81,10 @@ class JunctionHull:
         return result
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=KEPT)
 def junction_hull(finger: ProjectedFinger, rank: int) -> JunctionHull:
     """The bounds for one finger and phalanx, made once."""
     return JunctionHull(finger, rank)
-
-
-LOGARITHM = np.log2(np.maximum(np.arange(BINS + 1), 1)).astype(np.intp)
-"""Of 1, 2, …, BINS, rounded down."""
 
 
 def _tables(

@@ -9,7 +9,7 @@ from zygopin.branch_grid import BranchGrid
 from zygopin.clearance import Floats
 from zygopin.foot import Foot
 from zygopin.foot_poses import FootPoses
-from zygopin.grasp import Criteria
+from zygopin.grasp import THINNEST, Criteria
 from zygopin.toe_contacts import ToeSearch
 from zygopin.touch import touch_intervals
 from zygopin.witnesses import Witnesses
@@ -32,8 +32,10 @@ def surrounding_grasp(foot: Foot, branch: Branch) -> Floats | None:
         Controls, shape (P,), of a feasible grasp with the toes' palms; None where none
         was found.
     """
-    steps = np.arange(-AROUND, AROUND + 1)
     radius = float(np.asarray(branch.radius))
+    if radius < 2 * THINNEST * foot.size:
+        return None  # those around would be thinner than means anything
+    steps = np.arange(-AROUND, AROUND + 1)
     thicker = min(THICKER * foot.size, radius / (2 * AROUND))
     heights = branch.centre[2] + HIGHER * foot.size * steps
     grid = BranchGrid(heights, radius + thicker * steps, branch.axis, branch.centre[:2])

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from zygopin.branch_grid import BranchGrid
 from zygopin.contact_hull import Criterion
-from zygopin.engine import ENGINES
+from zygopin.engine import make_engine
 from zygopin.foot import Foot
 from zygopin.foot_poses import FootPoses
 from zygopin.grasp import Criteria, check_grasp
@@ -28,6 +28,7 @@ class Survey:
         foot: The foot.
         grid: The branches.
         witnesses: Poses of the whole foot.
+        engine: That which confirms poses, through Pinocchio and FCL.
     """
 
     def __init__(self, foot: Foot, grid: BranchGrid) -> None:
@@ -42,7 +43,8 @@ class Survey:
         self.intervals: TouchIntervals = touch_intervals(foot, grid.at(rows, 0))
         parts = self.search, self.toes, self.intervals, self.witnesses
         FootPoses(foot, *parts).join()
-        self.witnesses.confirm()
+        self.engine = make_engine("fcl", foot)
+        self.witnesses.confirm(self.engine)
         self.loose, self.loose_controls = self._loose()
         self.tangent = self._tangent()
         self.grasps_left = self._grasps_left()
@@ -157,7 +159,7 @@ class Survey:
             mine = np.where(solid[:, None], self.toes.controls[index][cells], np.nan)
             mine[other] = loose.controls[index][cells][other]
             poses[:, part] = np.where(np.isnan(mine), poses[:, part], mine)
-        for engine in ENGINES:
+        for engine in (make_engine("exact", self.foot), self.engine):
             held = np.isfinite(poses[:, 0])
             branches = self.grid.at(*(axis[held] for axis in cells))
             report = check_grasp(self.foot, poses[held], branches, engine=engine)

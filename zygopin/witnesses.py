@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from zygopin.branch_grid import BranchGrid
 from zygopin.clearance import dot
+from zygopin.engine import Engine
 from zygopin.foot import Foot
 from zygopin.grasp import (
     PARAMETER_SLACK,
@@ -80,8 +81,12 @@ class Witnesses:
         self.controls[kept] = controls[better]
         self.sides[kept] = tangent_sides(report)[better]
 
-    def confirm(self) -> None:
-        """Check all poses through Pinocchio and FCL: what both engines show remains."""
+    def confirm(self, engine: Engine) -> None:
+        """Check all poses by another engine: what both show remains.
+
+        Args:
+            engine: The engine.
+        """
         cells = np.nonzero(self.merit)
         if not len(cells[0]):
             return
@@ -90,7 +95,7 @@ class Witnesses:
             self.foot,
             self.controls[cells],
             branches,
-            engine="fcl",
+            engine=engine,
             criteria=self.criteria,
         )
         toes = touched(self.foot, report.tangent).sum(axis=-1)
