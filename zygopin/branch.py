@@ -6,12 +6,13 @@ import dataclasses
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from zygopin import checks
+from zygopin import blocks, checks
 
 BASE_SLACK = 1e-9
 """How far the base may lie inside, relative to the radius: rounding of a base that
@@ -92,7 +93,7 @@ class Branch:
     def _set(self, field: str, value: object) -> None:
         object.__setattr__(self, field, value)
 
-    @property
+    @cached_property
     def batch_shape(self) -> tuple[int, ...]:
         """The leading axes; () for one branch."""
         return np.broadcast_shapes(*self._shapes())
@@ -106,11 +107,31 @@ class Branch:
             np.shape(self.half_length),
         )
 
-    @property
+    @cached_property
     def half_length(self) -> NDArray[np.float64]:
-        """Half the length [m], shape (…); infinite where there is no end."""
+        """Half the length [m], shape (…), read-only; infinite where there is no end."""
         length = np.inf if self.length is None else self.length
-        return np.asarray(length, dtype=float) / 2
+        return checks.read_only(np.array(np.divide(length, 2.0)))
+
+    @cached_property
+    def largest_extent(self) -> float:
+        """Largest of the batch's radius + |centre| [m]."""
+        extent = np.asarray(self.radius) + np.linalg.norm(self.centre, axis=-1)
+        return float(extent.max(initial=0))
+
+    @cached_property
+    def least_radius(self) -> float:
+        """Least radius of the batch [m]."""
+        return float(np.min(self.radius, initial=np.inf))
+
+    @cached_property
+    def holds_origin(self) -> NDArray[np.bool_]:
+        """Whether the origin lies inside the solid, shape (…), read-only."""
+        along = np.abs(np.einsum("...i,...i->...", self.centre, self.axis))
+        far = self.base_distance() >= self.radius * (1 - BASE_SLACK)
+        outside = far | (along > self.half_length)
+        inside = np.logical_not(outside)
+        return checks.read_only(np.array(np.broadcast_to(inside, self.batch_shape)))
 
     def base_distance(self) -> NDArray[np.float64]:
         """Distance from the base's origin to the axis line [m], shape (…)."""
@@ -161,6 +182,18 @@ class Branch:
         return self._changed(
             lambda x, tail: np.broadcast_to(x, (*shape, *tail)).reshape(-1, *tail)
         )
+
+    def entries(self, batch: tuple[int, ...], part: slice) -> Branch:
+        """Some entries of this branch broadcast to a batch.
+
+        Args:
+            batch: Shape that the batch shape broadcasts to.
+            part: Which of its n entries, in C order.
+
+        Returns:
+            A batch of shape (n,); the branch itself where it is only one.
+        """
+        return self._changed(lambda x, tail: blocks.entries(x, batch, part, len(tail)))
 
     def __getitem__(self, index: Any) -> Branch:  # noqa: ANN401
         shape = self.batch_shape
@@ -219,15 +252,13 @@ def check_base(branch: Branch) -> None:
     Raises:
         ParameterError: The branch holds the origin inside it.
     """
-    along = np.abs(np.einsum("...i,...i->...", branch.centre, branch.axis))
-    distance, along, half, radius = np.broadcast_arrays(
-        branch.base_distance(), along, branch.half_length, branch.radius
-    )
-    outside = (distance >= radius * (1 - BASE_SLACK)) | (along > half)
+    if not branch.holds_origin.any():
+        return
+    distance = np.broadcast_to(branch.base_distance(), branch.batch_shape)
     checks.require(
         "distance of the base from the branch's axis",
         distance,
-        outside,
+        ~branch.holds_origin,
         "at least the branch's radius: the branch holds the base inside it",
         "move the centre away from the origin, or make the branch thinner",
     )

@@ -6,7 +6,6 @@ import math
 import os
 import re
 from collections.abc import Callable
-from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -198,10 +197,10 @@ def freeze(record: Any) -> None:  # noqa: ANN401
     Args:
         record: The record, while it is being made.
     """
-    for field in fields(record):
-        value = getattr(record, field.name)
+    values = vars(record)
+    for name, value in values.items():
         if isinstance(value, (np.ndarray, np.generic)):
-            object.__setattr__(record, field.name, read_only(np.array(value)))
+            values[name] = read_only(np.array(value))
 
 
 def require(

@@ -15,7 +15,7 @@ from zygopin.branch import Branch
 from zygopin.clearance import Clearance, Floats
 from zygopin.errors import UnknownNameError
 from zygopin.foot import Foot
-from zygopin.kinematics import forward_kinematics
+from zygopin.kinematics import posed_bones
 
 EngineName = Literal["exact", "fcl"]
 
@@ -31,7 +31,7 @@ class Engine:
     Attributes:
         name: `exact` or `fcl`.
         foot: The foot it is for.
-        bones: Controls (…, P) to bones (…, P, 2, 3).
+        bones: Controls (…, P) that were checked to bones (…, P, 2, 3).
         branch_clearance: Bones, radii and branch to a `Clearance`.
         least_skin_distance: Bones, radii and pairs to the least distance (…).
     """
@@ -63,9 +63,9 @@ def make_engine(name: str, foot: Foot) -> Engine:
         return Engine(
             name,
             foot,
-            partial(forward_kinematics, foot),
+            partial(posed_bones, foot),
             clearance.branch_clearance,
-            _least_skin_distance,
+            clearance.least_skin_distance,
         )
     if name != "fcl":
         raise UnknownNameError("engine", name, ENGINES)
@@ -79,11 +79,3 @@ def make_engine(name: str, foot: Foot) -> Engine:
         collision.branch_clearance,
         collision.least_skin_distance,
     )
-
-
-def _least_skin_distance(
-    bones: Floats, radii: Floats, pairs: tuple[Indices, Indices]
-) -> Floats:
-    """Least distance between the skins of pairs, by the exact engine."""
-    distances = clearance.skin_distance(bones, radii, pairs)
-    return np.asarray(distances.min(axis=-1, initial=np.inf))

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, fields, replace
+from functools import lru_cache
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from zygopin import checks
+from zygopin.blocks import BLOCK, entries
 from zygopin.branch import Branch, check_base
-from zygopin.clearance import Clearance, Floats
+from zygopin.clearance import Clearance, Floats, dot, least_skin_distance, norm
+from zygopin.directions import FEET
 from zygopin.engine import Engine, EngineName, make_engine
 from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.foot import Foot
-from zygopin.kinematics import Controls, as_controls
+from zygopin.kinematics import Controls, read_controls
 
 Reading = Literal["section", "base_to_tip"]
 Booleans = NDArray[np.bool_]
@@ -34,9 +38,6 @@ tolerance decides instead of the geometry."""
 
 PARAMETER_SLACK = 1e-9
 """Slack on t in [0, 1] and on the sign of the scalar product: rounding."""
-
-BLOCK = 1024
-"""Configurations worked on at once: intermediate arrays stay in the cache."""
 
 
 @dataclass(frozen=True)
@@ -172,7 +173,7 @@ def check_grasp(
             holds the foot's base.
         UnknownNameError: A finger, engine or reading does not exist.
     """
-    values = as_controls(foot, controls)
+    values = read_controls(foot, controls)
     criteria = criteria or Criteria()
     made = make_engine(engine, foot) if isinstance(engine, str) else engine
     if made.foot != foot:
@@ -184,14 +185,11 @@ def check_grasp(
     count = int(np.prod(batch, dtype=int))
     if count <= BLOCK:
         return _report(foot, values, branch, made, criteria)
-    flat = np.broadcast_to(values, (*batch, foot.phalanx_count))
-    flat = flat.reshape(count, foot.phalanx_count)
-    branches = branch.broadcast(batch) if branch.batch_shape else None
     parts = []
     for start in range(0, count, BLOCK):
-        block = slice(start, start + BLOCK)
-        local = branches[block] if branches is not None else branch
-        parts.append(_report(foot, flat[block], local, made, criteria))
+        part = slice(start, min(start + BLOCK, count))
+        poses, branches = entries(values, batch, part, 1), branch.entries(batch, part)
+        parts.append(_report(foot, poses, branches, made, criteria))
     return _joined(parts, branch, batch)
 
 
@@ -207,8 +205,10 @@ def check_branch(foot: Foot, branch: Branch) -> None:
             thinner than `THINNEST`.
     """
     check_base(branch)
-    radius = np.asarray(branch.radius)
     far, thin = FARTHEST * foot.size, THINNEST * foot.size
+    if branch.largest_extent <= far and branch.least_radius >= thin:
+        return
+    radius = np.asarray(branch.radius)
     extent = radius + np.linalg.norm(branch.centre, axis=-1)
     most, least = f"at most {far:.3g} m for this foot", f"at least {thin:.3g} m for it"
     name, remedy = "extent of the branch", "move it nearer, or take a thinner one"
@@ -225,22 +225,37 @@ def _report(
     near = engine.branch_clearance(bones, foot.radii, branch)
     contacts = classify(near, tolerance)
     apart = engine.least_skin_distance(bones, foot.radii, finger_pairs(foot))
+    pairs = _tangent_pairs(foot, contacts.tangent)
+    section, base_to_tip = (
+        _least(pairs, vectors) for vectors in (near.normal, _lines(bones))
+    )
+    decisive = section if criteria.reading == "section" else base_to_tip
     batch = near.distance.shape[:-1]
-    apart = np.broadcast_to(apart, batch)
+    free = ~contacts.penetrating.any(axis=-1) & (apart >= least_gap(foot, tolerance))
     return GraspReport(
         foot=foot,
-        controls=np.broadcast_to(controls, (*batch, *controls.shape[-1:])),
+        controls=_wide(controls, near.distance.shape),
         branch=branch,
         tolerance=tolerance,
-        bones=np.broadcast_to(bones, (*batch, *bones.shape[-3:])),
+        bones=_wide(bones, (*batch, *bones.shape[-3:])),
         clearance=near.distance,
         t=near.t,
         point=near.point,
         normal=near.normal,
-        finger_clearance=apart,
         **contacts._asdict(),
-        **_verdicts(foot, bones, near, apart, criteria),
+        finger_clearance=_wide(apart, batch),
+        stable=np.isfinite(decisive),
+        grasping=decisive <= PARAMETER_SLACK,
+        feasible=free,
+        scalar_product=section,
+        scalar_product_base_to_tip=base_to_tip,
     )
+
+
+def _lines(bones: Floats) -> Floats:
+    """Unit vectors along bones, from base to tip, shape (…, P, 3)."""
+    lines = bones[..., 1, :] - bones[..., 0, :]
+    return np.asarray(lines / norm(lines)[..., None])
 
 
 class Contacts(NamedTuple):
@@ -274,25 +289,19 @@ def classify(near: Clearance, tolerance: float) -> Contacts:
     )
 
 
-def _verdicts(
-    foot: Foot, bones: Floats, near: Clearance, apart: Floats, criteria: Criteria
-) -> dict[str, Any]:
-    """Verdicts and scalar products: MODEL.md, section 5."""
-    tolerance = criteria.metres(foot)
-    contacts = classify(near, tolerance)
-    lines = bones[..., 1, :] - bones[..., 0, :]
-    lines = lines / np.linalg.norm(lines, axis=-1, keepdims=True)
-    section = least_product(foot, near.normal, contacts.tangent)
-    base_to_tip = least_product(foot, lines, contacts.tangent)
-    decisive = section if criteria.reading == "section" else base_to_tip
-    return {
-        "stable": np.isfinite(decisive),
-        "grasping": np.nan_to_num(decisive, nan=np.inf) <= PARAMETER_SLACK,
-        "feasible": ~contacts.penetrating.any(axis=-1)
-        & (apart >= least_gap(foot, tolerance)),
-        "scalar_product": section,
-        "scalar_product_base_to_tip": base_to_tip,
-    }
+def fingers_apart(foot: Foot, bones: Floats, tolerance: float) -> Booleans:
+    """Whether no two fingers collide, by the exact engine.
+
+    Args:
+        foot: The foot.
+        bones: Bones [m], shape (…, P, 2, 3).
+        tolerance: Contact tolerance [m].
+
+    Returns:
+        The answers, shape (…).
+    """
+    apart = least_skin_distance(bones, foot.radii, finger_pairs(foot))
+    return apart >= least_gap(foot, tolerance)
 
 
 def least_gap(foot: Foot, tolerance: float) -> float:
@@ -310,6 +319,7 @@ def least_gap(foot: Foot, tolerance: float) -> float:
     return -tolerance if foot.thickness > 0 else tolerance
 
 
+@lru_cache(FEET)
 def finger_pairs(foot: Foot) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Pairs of phalanges of different fingers that can meet.
 
@@ -319,12 +329,12 @@ def finger_pairs(foot: Foot) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         foot: The foot.
 
     Returns:
-        Indices of the first and of the second phalanges, shape (M,) each.
+        Indices of the first and of the second phalanges, shape (M,) each, read-only.
     """
     i, j = np.triu_indices(foot.phalanx_count, 1)
     finger, rank = foot.finger_of_phalanx, foot.rank_of_phalanx
     apart = (finger[i] != finger[j]) & (rank[i] + rank[j] > 2)
-    return i[apart], j[apart]
+    return checks.read_only(i[apart]), checks.read_only(j[apart])
 
 
 def least_product(foot: Foot, vectors: Floats, tangent: Booleans) -> Floats:
@@ -338,16 +348,58 @@ def least_product(foot: Foot, vectors: Floats, tangent: Booleans) -> Floats:
     Returns:
         The least products, shape (…); NaN without such a pair.
     """
-    # All products at once: cheaper than to gather the vectors of each pair first.
+    return _least(_tangent_pairs(foot, tangent), vectors)
+
+
+class _Pairs(NamedTuple):
+    """Tangent phalanges of opposable fingers, for poses of a batch.
+
+    Attributes:
+        batch: Shape of the batch.
+        pose: Number of the pose of each pair in the batch, shape (m,).
+        first: Its one phalanx, shape (m,).
+        second: Its other phalanx, shape (m,).
+    """
+
+    batch: tuple[int, ...]
+    pose: NDArray[np.intp]
+    first: NDArray[np.intp]
+    second: NDArray[np.intp]
+
+
+def _tangent_pairs(foot: Foot, tangent: Booleans) -> _Pairs:
+    """The pairs among phalanges that are tangent, shape (…, P)."""
+    i, j = _opposed(foot)
+    flat = tangent.reshape(-1, tangent.shape[-1])
+    pose, pair = np.nonzero(flat[:, i] & flat[:, j])
+    return _Pairs(tangent.shape[:-1], pose, i[pair], j[pair])
+
+
+def _least(pairs: _Pairs, vectors: Floats) -> Floats:
+    """Least product over each pose's pairs, of vectors (…, P, 3); NaN without one."""
+    least = np.full(math.prod(pairs.batch), np.nan)
+    if len(pairs.pose):
+        vectors = _wide(vectors, (*pairs.batch, *vectors.shape[-2:]))
+        flat = vectors.reshape(-1, *vectors.shape[-2:])
+        products = dot(flat[pairs.pose, pairs.first], flat[pairs.pose, pairs.second])
+        np.fmin.at(least, pairs.pose, products)
+    return least.reshape(pairs.batch)
+
+
+def _wide(values: Floats, shape: tuple[int, ...]) -> Floats:
+    """Values broadcast to a shape, which they mostly have."""
+    return values if values.shape == shape else np.broadcast_to(values, shape)
+
+
+@lru_cache(FEET)
+def _opposed(foot: Foot) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Pairs of phalanges of opposable fingers: indices of the first and the second."""
     finger = foot.finger_of_phalanx
     opposed = np.zeros((foot.phalanx_count,) * 2, dtype=bool)
     for one, other in foot.opposable_pairs:
         opposed |= (finger[:, None] == one) & (finger == other)
     i, j = np.nonzero(opposed)
-    products = (vectors @ vectors.swapaxes(-1, -2))[..., i, j]
-    both = tangent[..., i] & tangent[..., j]
-    least = np.where(both, products, np.inf).min(axis=-1, initial=np.inf)
-    return np.where(np.isfinite(least), least, np.nan)
+    return checks.read_only(i), checks.read_only(j)
 
 
 def _joined(

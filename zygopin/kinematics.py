@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from zygopin import checks
+from zygopin.blocks import in_blocks
+from zygopin.directions import FEET, directions, product, running_sum
 from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.foot import Foot
 
@@ -29,6 +33,26 @@ def as_controls(foot: Foot, controls: Controls) -> NDArray[np.float64]:
         ParameterError: A value is outside [0, 1], or the length is wrong.
         UnknownNameError: A finger does not exist.
     """
+    values = read_controls(foot, controls)
+    return values.copy() if values is controls else values
+
+
+def read_controls(foot: Foot, controls: Controls) -> NDArray[np.float64]:
+    """`as_controls` for who only reads: an array that is fine is not copied.
+
+    Args:
+        foot: The foot they are for.
+        controls: Values in [0, 1], shape (…, P), or {finger name: shape (…, K)}.
+
+    Returns:
+        An array of shape (…, P), which may be the caller's own.
+
+    Raises:
+        ParameterError: A value is outside [0, 1], or the length is wrong.
+        UnknownNameError: A finger does not exist.
+    """
+    if isinstance(controls, np.ndarray) and _fine(foot, controls):
+        return controls
     if isinstance(controls, Mapping):
         controls = _joined(foot, controls)
     values = checks.array("controls", controls, last=foot.phalanx_count)
@@ -36,6 +60,13 @@ def as_controls(foot: Foot, controls: Controls) -> NDArray[np.float64]:
     remedy = "0 is the straight joint, 1 the fully closed one"
     checks.require("controls", values, inside, "in [0, 1]", remedy)
     return values
+
+
+def _fine(foot: Foot, controls: NDArray[Any]) -> bool:
+    """Whether an array needs no change and holds nothing wrong, NaN least of all."""
+    if controls.dtype != np.float64 or controls.shape[-1:] != (foot.phalanx_count,):
+        return False
+    return bool(controls.size and controls.min() >= 0 and controls.max() <= 1)
 
 
 def by_finger(foot: Foot, values: NDArray[np.float64]) -> dict[str, list[float]]:
@@ -52,7 +83,11 @@ def by_finger(foot: Foot, values: NDArray[np.float64]) -> dict[str, list[float]]
 
 
 def forward_kinematics(
-    foot: Foot, controls: Controls, *, azimuths: ArrayLike | None = None
+    foot: Foot,
+    controls: Controls,
+    *,
+    azimuths: ArrayLike | None = None,
+    threads: int | None = None,
 ) -> NDArray[np.float64]:
     """Bones of every phalanx for given controls: equation (sys), MODEL.md section 2.
 
@@ -63,33 +98,86 @@ def forward_kinematics(
         controls: Controls in [0, 1], shape (…, P), or {finger name: sequence}.
         azimuths: Azimuth of each finger [rad], shape (…, F); None: the foot's own.
             A reversible toe is turned this way.
+        threads: How many work on a large batch; None: one for each core.
 
     Returns:
         Bones in the foot's frame [m], shape (…, P, 2, 3): start and end junctions.
 
     Raises:
-        ParameterError: A control is outside [0, 1], or a shape is wrong.
+        ParameterError: A control is outside [0, 1], a shape is wrong, or that is no
+            number of threads.
         UnknownNameError: A finger does not exist.
     """
-    controls = as_controls(foot, controls)
+    controls = read_controls(foot, controls)
+    if azimuths is None:
+        return posed_bones(foot, controls, threads)
     azimuths = as_azimuths(foot, azimuths)
     shapes = controls.shape[:-1], azimuths.shape[:-1]
     batch = checks.common_batch("controls and azimuths", *shapes)
-    bones = np.empty((*batch, foot.phalanx_count, 2, 3))
-    for index, (finger, part) in enumerate(
-        zip(foot.fingers, foot.finger_slices.values(), strict=True)
-    ):
-        pitch = finger.orientation + foot.omega * np.cumsum(controls[..., part], -1)
-        steps = foot.lengths[part] * np.exp(-1j * pitch)
-        ends = np.cumsum(steps, axis=-1)
-        azimuth = azimuths[..., index, None]
-        for place, junction in ((0, ends - steps), (1, ends)):
-            bones[..., part, place, 0] = junction.real * np.cos(azimuth)
-            bones[..., part, place, 1] = junction.real * np.sin(azimuth)
-            bones[..., part, place, 2] = junction.imag
-        # The difference of sums leaves rounding where the base is exactly zero.
-        bones[..., part.start, 0, :] = 0.0
+    flat = _bones(_flat_matrix(foot), foot, controls, threads)
+    turn = azimuths[..., foot.finger_of_phalanx, None]
+    bones = np.empty((*batch, *flat.shape[-3:]))
+    np.multiply(flat[..., 0], np.cos(turn), out=bones[..., 0])
+    np.multiply(flat[..., 0], np.sin(turn), out=bones[..., 1])
+    bones[..., 2] = flat[..., 2]
     return bones
+
+
+def posed_bones(
+    foot: Foot, controls: NDArray[np.float64], threads: int | None = None
+) -> NDArray[np.float64]:
+    """`forward_kinematics` of controls that were checked.
+
+    Args:
+        foot: The foot.
+        controls: Controls in [0, 1], shape (…, P).
+        threads: How many work on a large batch; None: one for each core.
+
+    Returns:
+        Bones in the foot's frame [m], shape (…, P, 2, 3): start and end junctions.
+    """
+    return _bones(_bone_matrix(foot), foot, controls, threads)
+
+
+def _bones(
+    matrix: NDArray[np.float64],
+    foot: Foot,
+    controls: NDArray[np.float64],
+    threads: int | None,
+) -> NDArray[np.float64]:
+    """Bones as a matrix makes them out of the phalanges' directions."""
+    bones = np.empty((*controls.shape, 2, 3))
+    poses = controls.reshape(-1, foot.phalanx_count)
+    columns = bones.reshape(-1, len(matrix)).T
+
+    def block(part: slice) -> None:
+        pointing = directions(foot, poses[part])
+        rows = pointing.reshape(matrix.shape[1], -1)
+        product(matrix, rows, out=columns[:, part])
+
+    in_blocks(block, len(poses), threads)
+    return bones
+
+
+@lru_cache(FEET)
+def _flat_matrix(foot: Foot) -> NDArray[np.float64]:
+    """Bones of fingers that all lie along x, shape (6P, 2P), for `directions`."""
+    ends = running_sum(foot) * foot.lengths
+    junctions = np.stack([ends - np.diag(foot.lengths), ends], axis=1)
+    matrix = np.zeros((*junctions.shape[:2], 3, 2, foot.phalanx_count))
+    matrix[:, :, 0, 0], matrix[:, :, 2, 1] = junctions, -junctions
+    return checks.read_only(matrix.reshape(6 * foot.phalanx_count, -1))
+
+
+@lru_cache(FEET)
+def _bone_matrix(foot: Foot) -> NDArray[np.float64]:
+    """Bones in the foot's frame, shape (6P, 2P): `_flat_matrix` turned about z."""
+    flat = _flat_matrix(foot).reshape(foot.phalanx_count, 2, 3, -1)
+    azimuth = as_azimuths(foot, None)[foot.finger_of_phalanx, None, None]
+    matrix = flat.copy()
+    matrix[:, :, 0] = flat[:, :, 0] * np.cos(azimuth)
+    matrix[:, :, 1] = flat[:, :, 0] * np.sin(azimuth)
+    return checks.read_only(matrix.reshape(6 * foot.phalanx_count, -1))
 
 
 def as_azimuths(foot: Foot, azimuths: ArrayLike | None) -> NDArray[np.float64]:
