@@ -96,6 +96,7 @@ _HOMES = {
     "touching": ("TouchingControls", "touching_controls"),
     "trajectory": ("StrikeEvent", "StrikeTrajectory"),
     "validation": ("ReachValidation", "ValidationRow", "validate_foot"),
+    "verdicts": ("GraspVerdicts", "grasp_verdicts"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
@@ -136,6 +137,7 @@ __all__ = [
     "FootModel",
     "Friction",
     "GraspReport",
+    "GraspVerdicts",
     "GraspableRadii",
     "Grip",
     "HausdorffDistance",
@@ -189,6 +191,7 @@ __all__ = [
     "finger_reach",
     "force_closure",
     "forward_kinematics",
+    "grasp_verdicts",
     "graspable_radii",
     "hausdorff_distance",
     "inverse_reach",

@@ -139,5 +139,7 @@ from zygopin.trajectory import StrikeTrajectory as StrikeTrajectory
 from zygopin.validation import ReachValidation as ReachValidation
 from zygopin.validation import ValidationRow as ValidationRow
 from zygopin.validation import validate_foot as validate_foot
+from zygopin.verdicts import GraspVerdicts as GraspVerdicts
+from zygopin.verdicts import grasp_verdicts as grasp_verdicts
 
 __version__: str

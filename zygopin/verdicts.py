@@ -152,9 +152,9 @@ class _Sieve:
         size = radius + np.abs(place).sum(axis=0) + self.foot.size
         slack = self.tolerance + ROUNDING * size
         inside, outside = np.maximum(reach - slack, 0) ** 2, (reach + slack) ** 2
-        across, rise = (
-            np.broadcast_to(self.toes @ way, outside.shape) for way in (first, second)
-        )
+        across, rise = self.toes @ first, self.toes @ second
+        wide = np.broadcast_shapes(across.shape, outside.shape)
+        across, rise = np.broadcast_to(across, wide), np.broadcast_to(rise, wide)
         return _Section(across, rise, level, centre, inside, outside)
 
     def verdicts(
