@@ -200,7 +200,7 @@ def test_threads_change_nothing():
 def test_a_finite_branch_may_be_passed_by():
     # The second phalanx turns down, through a branch that ends before it gets there.
     foot = Foot(omega=math.pi / 2, fingers=(Finger("toe", 2, math.pi / 2),))
-    place = dict(radius=0.1, centre=(0, -1, -0.2))
+    place = {"radius": 0.1, "centre": (0, -1, -0.2)}
     controls = np.tile([0.0, 1.0], (3, 1))
     assert assert_full_check(foot, controls, Branch(**place, length=3)).feasible.all()
     assert not assert_full_check(foot, controls, Branch(**place)).feasible.any()

@@ -65,6 +65,27 @@ class Nearest(NamedTuple):
     normal: Floats
 
 
+def distances(
+    bones: Floats,
+    radii: Floats,
+    branch: Branch,
+    pairs: tuple[NDArray[np.intp], NDArray[np.intp]],
+) -> tuple[Clearance, Floats]:
+    """`branch_clearance` and `least_skin_distance` at once.
+
+    Args:
+        bones: Bones [m], shape (…, P, 2, 3).
+        radii: Skin radii εₖ [m], shape (P,).
+        branch: The branch, or a batch of them that broadcasts against the bones'.
+        pairs: Indices of the first and of the second phalanges, shape (M,) each.
+
+    Returns:
+        The record, and signed distances [m] of the bones' own batch.
+    """
+    near = branch_clearance(bones, radii, branch)
+    return near, least_skin_distance(bones, radii, pairs)
+
+
 def branch_clearance(bones: Floats, radii: Floats, branch: Branch) -> Clearance:
     """Clearance between phalanges and branches: MODEL.md, section 4.
 

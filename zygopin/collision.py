@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin.branch import Branch
-from zygopin.clearance import Clearance, Floats, Nearest, dot
+from zygopin.clearance import Clearance, Floats, Nearest, dot, norm
 from zygopin.obstacle import Capsule, ConvexMesh, Solid, Sphere
 
 REACH = 2.0
@@ -39,6 +39,27 @@ CLAMPED = 1e-9
 Solids = Sequence[fcl.CollisionObject]
 
 
+def distances(
+    bones: Floats,
+    radii: Floats,
+    branch: Branch,
+    pairs: tuple[NDArray[np.intp], NDArray[np.intp]],
+) -> tuple[Clearance, Floats]:
+    """`branch_clearance` and `least_skin_distance`, with the solids made once.
+
+    Args:
+        bones: Bones [m], shape (…, P, 2, 3).
+        radii: Skin radii εₖ [m], shape (P,).
+        branch: The branch, or a batch of them that broadcasts against the bones'.
+        pairs: Indices of the first and of the second phalanges, shape (M,) each.
+
+    Returns:
+        The record, and signed distances [m] of the bones' own batch.
+    """
+    toes = _Toes.of(bones, radii)
+    return _branch_clearance(toes, branch), _least_skin_distance(toes, pairs)
+
+
 def branch_clearance(bones: Floats, radii: Floats, branch: Branch) -> Clearance:
     """Clearance between phalanges and branches, by FCL.
 
@@ -51,24 +72,7 @@ def branch_clearance(bones: Floats, radii: Floats, branch: Branch) -> Clearance:
         The record of the exact engine. Where a finite branch's end is nearer than
         its side, the accuracy is that of FCL's capsule against cylinder.
     """
-    batch = np.broadcast_shapes(bones.shape[:-3], branch.batch_shape)
-    shape = (*batch, bones.shape[-3])
-    unit = _unit(bones)
-    rows = _Rows.of(bones / unit, radii / unit, branch, unit)
-    # Objects cost more than queries: those of a branch serve all phalanges it has.
-    record = _at_side(rows, shape[-1] if branch.batch_shape else max(len(rows.skin), 1))
-    ends = ~record.lateral
-    if ends.any():
-        at_end = _at_end(rows.select(ends))
-        for field in fields(Clearance):
-            getattr(record, field.name)[ends] = getattr(at_end, field.name)
-    return Clearance(
-        record.distance.reshape(shape) * unit,
-        record.t.reshape(shape),
-        record.point.reshape(*shape, 3) * unit,
-        record.normal.reshape(*shape, 3),
-        record.lateral.reshape(shape),
-    )
+    return _branch_clearance(_Toes.of(bones, radii), branch)
 
 
 def solid_nearest(bones: Floats, solid: Solid) -> Nearest:
@@ -95,7 +99,7 @@ def solid_nearest(bones: Floats, solid: Solid) -> Nearest:
     t, core = _core(local, near)
     apart = (np.abs(gap) > COINCIDENT)[:, None]
     vectors = np.where(apart, np.sign(gap)[:, None] * (near - far), core - middle)
-    size = np.sqrt(dot(vectors, vectors))[:, None]
+    size = norm(vectors)[:, None]
     upward = np.broadcast_to((0.0, 0.0, 1.0), vectors.shape)
     normal = np.divide(vectors, size, upward.copy(), where=size > 0)
     return Nearest(t, (gap - radius) * unit, normal)
@@ -115,18 +119,73 @@ def least_skin_distance(
         Signed distances [m], shape (…): negative where skins overlap; infinite without
         pairs.
     """
-    unit, count = _unit(bones), bones.shape[-3]
-    flat = bones.reshape(-1, count, 2, 3) / unit
-    skin = radii / unit
-    rows, columns = np.nonzero(_may_be_least(flat, skin, pairs))
-    solids = _capsules(flat.reshape(-1, 2, 3), np.tile(skin, len(flat)))
+    return _least_skin_distance(_Toes.of(bones, radii), pairs)
+
+
+@dataclass(frozen=True)
+class _Toes:
+    """Phalanges as solids, in units of the foot.
+
+    Attributes:
+        unit: The unit [m].
+        bones: Bones, shape (…, P, 2, 3).
+        skin: Skin radii, shape (P,).
+        solids: A capsule for each phalanx of each pose, in C order.
+    """
+
+    unit: float
+    bones: Floats
+    skin: Floats
+    solids: list[fcl.CollisionObject]
+
+    @classmethod
+    def of(cls, bones: Floats, radii: Floats) -> _Toes:
+        unit = _unit(bones)
+        bones, skin = bones / unit, radii / unit
+        flat = bones.reshape(-1, 2, 3)
+        solids = _capsules(flat, np.resize(skin, len(flat)))
+        return cls(unit, bones, skin, solids)
+
+
+def _branch_clearance(toes: _Toes, branch: Branch) -> Clearance:
+    """Clearance between phalanges and branches."""
+    unit, places = toes.unit, np.arange(len(toes.solids))
+    batch = np.broadcast_shapes(toes.bones.shape[:-3], branch.batch_shape)
+    shape = (*batch, toes.bones.shape[-3])
+    rows = _Rows.of(toes, branch)
+    wide = np.broadcast_to(places.reshape(toes.bones.shape[:-2]), shape)
+    phalanges = [toes.solids[i] for i in wide.ravel()]
+    # Objects cost more than queries: those of a branch serve all phalanges it has.
+    share = shape[-1] if branch.batch_shape else max(len(phalanges), 1)
+    record = _at_side(phalanges, rows, share)
+    ends = ~record.lateral
+    if ends.any():
+        at_end = _at_end(rows.select(ends))
+        for field in fields(Clearance):
+            getattr(record, field.name)[ends] = getattr(at_end, field.name)
+    return Clearance(
+        record.distance.reshape(shape) * unit,
+        record.t.reshape(shape),
+        record.point.reshape(*shape, 3) * unit,
+        record.normal.reshape(*shape, 3),
+        record.lateral.reshape(shape),
+    )
+
+
+def _least_skin_distance(
+    toes: _Toes, pairs: tuple[NDArray[np.intp], NDArray[np.intp]]
+) -> Floats:
+    """Least distance between the skins of pairs of phalanges."""
+    *batch, count = toes.bones.shape[:-2]
+    flat = toes.bones.reshape(-1, count, 2, 3)
+    rows, columns = np.nonzero(_may_be_least(flat, toes.skin, pairs))
     first, second = (rows * count + side[columns] for side in pairs)
-    one, other = ([solids[i] for i in side] for side in (first, second))
+    one, other = ([toes.solids[i] for i in side] for side in (first, second))
     # Without nearest points: half the time.
     distance = np.fromiter(map(fcl.distance, one, other), float, len(rows))
     least = np.full(len(flat), np.inf)
     np.minimum.at(least, rows, distance)
-    return least.reshape(bones.shape[:-3]) * unit
+    return least.reshape(batch) * toes.unit
 
 
 def _may_be_least(
@@ -138,9 +197,9 @@ def _may_be_least(
     """
     i, j = pairs
     middle, line = bones.mean(axis=2), bones[:, :, 1] - bones[:, :, 0]
-    size = np.sqrt(dot(line, line)) / 2
+    size = norm(line) / 2
     offset = middle[:, i] - middle[:, j]
-    most = np.sqrt(dot(offset, offset)) - radii[i] - radii[j]
+    most = norm(offset) - radii[i] - radii[j]
     least = most - size[:, i] - size[:, j]
     return np.asarray(least <= most.min(axis=1, initial=np.inf, keepdims=True))
 
@@ -157,18 +216,21 @@ class _Rows:
     half: Floats
 
     @classmethod
-    def of(cls, bones: Floats, radii: Floats, branch: Branch, unit: float) -> _Rows:
-        batch = np.broadcast_shapes(bones.shape[:-3], branch.batch_shape)
-        shape = (*batch, bones.shape[-3])
-        radius = np.asarray(branch.radius)[..., None] / unit
+    def of(cls, toes: _Toes, branch: Branch) -> _Rows:
+        unit = toes.unit
+        batch = np.broadcast_shapes(toes.bones.shape[:-3], branch.batch_shape)
+        shape = (*batch, len(toes.skin))
+
+        def rows(values: Floats, *tail: int) -> Floats:
+            return np.broadcast_to(values, (*shape, *tail)).reshape(-1, *tail)
+
         return cls(
-            np.broadcast_to(bones, (*shape, 2, 3)).reshape(-1, 2, 3),
-            np.broadcast_to(radii, shape).ravel(),
-            np.broadcast_to(branch.centre[..., None, :], (*shape, 3)).reshape(-1, 3)
-            / unit,
-            np.broadcast_to(branch.axis[..., None, :], (*shape, 3)).reshape(-1, 3),
-            np.broadcast_to(radius, shape).ravel(),
-            np.broadcast_to(branch.half_length[..., None] / unit, shape).ravel(),
+            rows(toes.bones, 2, 3),
+            rows(toes.skin),
+            rows(branch.centre[..., None, :] / unit, 3),
+            rows(branch.axis[..., None, :], 3),
+            rows(np.asarray(branch.radius)[..., None] / unit),
+            rows(branch.half_length[..., None] / unit),
         )
 
     def select(self, mask: NDArray[np.bool_] | slice) -> _Rows:
@@ -181,14 +243,14 @@ class _Rows:
         return np.stack([below - REACH * self.axis, below + REACH * self.axis], 1)
 
 
-def _at_side(rows: _Rows, share: int) -> Clearance:
+def _at_side(phalanges: Solids, rows: _Rows, share: int) -> Clearance:
     """Nearest points on the branches' sides, `lateral` where there is such a side.
 
     Args:
-        rows: The phalanges and branches.
+        phalanges: The phalanges.
+        rows: The phalanges and branches, as numbers.
         share: So many rows after one another have the same branch.
     """
-    phalanges = _capsules(rows.bone, rows.skin)
     some = rows.select(slice(None, None, share))
     slims = _capsules(some.stem(), SHRUNK * some.radius)
     each = [solid for solid in slims for _ in range(share)]
@@ -220,7 +282,7 @@ def _at_end(rows: _Rows) -> Clearance:
 def _capsules(bones: Floats, radii: Floats) -> list[fcl.CollisionObject]:
     """Bones with skins of given radii, (n, 2, 3) and (n,)."""
     lines = bones[:, 1] - bones[:, 0]
-    lengths = np.sqrt(dot(lines, lines))
+    lengths = norm(lines)
     frames = _quaternions(lines / lengths[:, None])
     return [*map(_placed, map(fcl.Capsule, radii, lengths), frames, bones.mean(1))]
 
@@ -295,12 +357,10 @@ def _contact(
 def _quaternions(directions: Floats) -> Floats:
     """Rotations (w, x, y, z) that take the z axis to unit directions, (n, 4)."""
     x, y, z = directions.T
-    flat = np.zeros_like(z)
     # Two forms of one rotation, each far from its own singular direction.
-    rising = np.stack([1 + z, -y, x, flat], axis=1)
-    falling = np.stack([x, flat, 1 - z, y], axis=1)
-    turn = np.where((z >= 0)[:, None], rising, falling)
-    return np.asarray(turn / np.linalg.norm(turn, axis=1, keepdims=True))
+    up = z >= 0
+    turn = np.array([np.where(up, 1 + z, x), -y * up, np.where(up, x, 1 - z), y * ~up])
+    return np.asarray((turn / np.sqrt(2 * (1 + np.abs(z)))).T)
 
 
 def _core(bones: Floats, points: Floats) -> tuple[Floats, Floats]:
@@ -312,12 +372,14 @@ def _core(bones: Floats, points: Floats) -> tuple[Floats, Floats]:
 
 def _direction(offsets: Floats, gaps: Floats, rows: _Rows) -> Floats:
     """Unit vectors from branch to phalanx; across both where they cross."""
-    across = np.cross(rows.axis, rows.bone[:, 1] - rows.bone[:, 0])
-    spare = np.cross(rows.axis, np.eye(3)[np.argmin(np.abs(rows.axis), axis=1)])
-    across = np.where((across == 0).all(axis=1)[:, None], spare, across)
-    apart = (np.abs(gaps) > COINCIDENT)[:, None]
-    vectors = np.where(apart, np.sign(gaps)[:, None] * offsets, across)
-    return np.asarray(vectors / np.linalg.norm(vectors, axis=1, keepdims=True))
+    vectors = np.sign(gaps)[:, None] * offsets
+    met = np.abs(gaps) <= COINCIDENT
+    if met.any():
+        axis, bone = rows.axis[met], rows.bone[met]
+        across = np.cross(axis, bone[:, 1] - bone[:, 0])
+        spare = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis), axis=1)])
+        vectors[met] = np.where((across == 0).all(axis=1)[:, None], spare, across)
+    return np.asarray(vectors / norm(vectors)[:, None])
 
 
 def _on_line(t: Floats, offsets: Floats, rows: _Rows) -> Floats:

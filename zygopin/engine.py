@@ -19,7 +19,7 @@ from zygopin.kinematics import posed_bones
 
 EngineName = Literal["exact", "fcl"]
 
-Indices = NDArray[np.intp]
+Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
 
 ENGINES: tuple[EngineName, ...] = ("exact", "fcl")
 
@@ -32,15 +32,14 @@ class Engine:
         name: `exact` or `fcl`.
         foot: The foot it is for.
         bones: Controls (…, P) that were checked to bones (…, P, 2, 3).
-        branch_clearance: Bones, radii and branch to a `Clearance`.
-        least_skin_distance: Bones, radii and pairs to the least distance (…).
+        distances: Bones, radii, branch and pairs of phalanges to a `Clearance`, and
+            to the least distance of the pairs' skins in the bones' batch (…).
     """
 
     name: str
     foot: Foot
     bones: Callable[[Floats], Floats]
-    branch_clearance: Callable[[Floats, Floats, Branch], Clearance]
-    least_skin_distance: Callable[[Floats, Floats, tuple[Indices, Indices]], Floats]
+    distances: Callable[[Floats, Floats, Branch, Pairs], tuple[Clearance, Floats]]
 
 
 def make_engine(name: str, foot: Foot) -> Engine:
@@ -64,8 +63,7 @@ def make_engine(name: str, foot: Foot) -> Engine:
             name,
             foot,
             partial(posed_bones, foot),
-            clearance.branch_clearance,
-            clearance.least_skin_distance,
+            clearance.distances,
         )
     if name != "fcl":
         raise UnknownNameError("engine", name, ENGINES)
@@ -76,6 +74,5 @@ def make_engine(name: str, foot: Foot) -> Engine:
         name,
         foot,
         FootModel(foot).forward,
-        collision.branch_clearance,
-        collision.least_skin_distance,
+        collision.distances,
     )

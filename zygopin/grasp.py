@@ -222,9 +222,8 @@ def _report(
     """The report on one block."""
     tolerance = criteria.metres(foot)
     bones = engine.bones(controls)
-    near = engine.branch_clearance(bones, foot.radii, branch)
+    near, apart = engine.distances(bones, foot.radii, branch, finger_pairs(foot))
     contacts = classify(near, tolerance)
-    apart = engine.least_skin_distance(bones, foot.radii, finger_pairs(foot))
     pairs = _tangent_pairs(foot, contacts.tangent)
     section, base_to_tip = (
         _least(pairs, vectors) for vectors in (near.normal, _lines(bones))

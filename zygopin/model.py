@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import chain
+from typing import Any
 
 import numpy as np
 import pinocchio as pin
@@ -50,6 +51,10 @@ class FootModel:
         ]
         # Each finger's tip comes after its phalanges: one frame more for each.
         self._starts = np.arange(foot.phalanx_count) + foot.finger_of_phalanx
+        self._idle: list[_Memory] = []
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**vars(self), "_idle": []}
 
     def coordinates(self, joints: Iterable[str]) -> NDArray[np.intp]:
         """Where joints' angles stand in Pinocchio's q.
@@ -110,15 +115,19 @@ class FootModel:
         q = self.configuration(controls, azimuths)
         origins = np.empty((*q.shape[:-1], len(self._frames), 3))
         flat = origins.reshape(-1, 3 * len(self._frames))
-        data = self.model.createData()
-        # Views of Pinocchio's own memory: each pass renews what they show.
-        views = [data.oMf[frame].translation for frame in self._frames]
+        memory = self._memory()
         for row, out in zip(q.reshape(-1, self.model.nq), flat, strict=True):
-            pin.framesForwardKinematics(self.model, data, row)
-            np.concatenate(views, out=out)
-        return np.stack(
-            [origins[..., self._starts, :], origins[..., self._starts + 1, :]], axis=-2
-        )
+            pin.framesForwardKinematics(self.model, memory.data, row)
+            np.concatenate(memory.views, out=out)
+        self._idle.append(memory)
+        return origins[..., self._starts[:, None] + [0, 1], :]
+
+    def _memory(self) -> _Memory:
+        """Memory that no other thread works with: some that is idle, or new."""
+        try:
+            return self._idle.pop()
+        except IndexError:
+            return _Memory(self.model, self._frames)
 
     def _turns(self, azimuths: ArrayLike | None) -> NDArray[np.float64]:
         """Turn of each finger from its own azimuth [rad], shape (…, F)."""
@@ -134,6 +143,19 @@ class FootModel:
                     "this finger has no reversal: give it a reversed_azimuth",
                 )
         return turns
+
+
+class _Memory:
+    """What one thread works with: Pinocchio's data, and views of it.
+
+    Attributes:
+        data: The data.
+        views: Origins of the frames, which each pass renews.
+    """
+
+    def __init__(self, model: pin.Model, frames: Iterable[int]) -> None:
+        self.data = model.createData()
+        self.views = [self.data.oMf[frame].translation for frame in frames]
 
 
 def _read(urdf: str, foot: Foot) -> pin.Model:
