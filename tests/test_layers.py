@@ -37,6 +37,8 @@ LAYERS = (
     "names",
     "branch",
     "obstacle",
+    "template",
+    "shipped",
     "description",
     "kinematics",
     "projection",
