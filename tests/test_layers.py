@@ -142,6 +142,7 @@ LAYERS = (
     "phalanx_sweep",
     "remark",
     "camera",
+    "looks",
     "solids",
     "viewer",
     "canvas",
