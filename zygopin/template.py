@@ -29,14 +29,14 @@ def expand(foot: Foot, *, tendon: bool = False) -> str:
     """The URDF that the templates make of a foot.
 
     Args:
-        foot: The foot.
-        tendon: Whether every flexion joint mimics the first finger's first.
+        foot: What becomes their argument `foot`, as a file.
+        tendon: Their argument of that name.
 
     Returns:
-        The URDF [m, rad, kg], indented, with a newline at the end.
+        The text, indented, without xacro's banner.
 
     Raises:
-        DescriptionError: The template is missing or does not expand.
+        DescriptionError: A template is missing, or is none.
     """
     arguments = {"tendon": "true" if tendon else "false"}
     try:
