@@ -19,8 +19,8 @@ from zygopin import (
     region_map,
 )
 from zygopin.atlas_plots import REGION_COLOURS
-from zygopin.drawing import finger_paint
 from zygopin.errors import FileError
+from zygopin.looks import finger_paint
 from zygopin.side_views import side_view
 
 

@@ -7,7 +7,7 @@ import umsgpack
 from zygopin.branch import Branch, branch_axis
 from zygopin.camera import DISTANCE, HIGHEST, LOWEST, framed, grasp_direction
 from zygopin.canvas import Canvas, segment_pose
-from zygopin.solids import Paint
+from zygopin.looks import Paint
 from zygopin.viewer import Recorder
 
 PAINT = Paint(0x804020)

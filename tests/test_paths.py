@@ -10,14 +10,14 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from zygopin import paths, robot_description
-from zygopin.description import to_urdf
 from zygopin.foot import Foot
 from zygopin.srdf import to_srdf
+from zygopin.template import expand
 
 
 def test_the_default_files_are_the_parrot_s():
     parrot = Foot.preset("parrot")
-    assert paths.URDF_PATH.read_text(encoding="utf-8") == to_urdf(parrot)
+    assert paths.URDF_PATH.read_text(encoding="utf-8") == expand(parrot)
     assert paths.SRDF_PATH.read_text(encoding="utf-8") == to_srdf(parrot)
 
 

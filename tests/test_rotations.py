@@ -9,7 +9,12 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from zygopin import ParameterError
-from zygopin.rotations import angles_between, as_rotations, turns_between
+from zygopin.rotations import (
+    angles_between,
+    as_rotations,
+    quaternions,
+    turns_between,
+)
 
 QUARTER = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 
@@ -36,6 +41,23 @@ def test_a_turn_has_constant_speed():
     (middle,) = turn(np.array([0.5]))
     expected = Rotation.from_euler("z", 22.5, degrees=True).as_matrix()
     np.testing.assert_allclose(middle, expected, atol=1e-14)
+
+
+def test_quaternions_are_scipy_s_for_turns_of_any_size():
+    units = np.random.default_rng(5).normal(size=(2, 500, 4))
+    turns = Rotation.from_quat(units.reshape(-1, 4)).as_matrix().reshape(2, 500, 3, 3)
+    found = quaternions(turns)
+    expected = Rotation.from_matrix(turns.reshape(-1, 3, 3)).as_quat()
+    np.testing.assert_allclose(found.reshape(-1, 4), expected, rtol=0, atol=1e-15)
+    assert np.all(np.take_along_axis(found, abs(found).argmax(-1)[..., None], -1) > 0)
+
+
+def test_quaternions_of_half_turns_and_a_quarter_one_are_exact():
+    half = np.stack([np.diag(signs) for signs in ((1, 1, 1), (1, -1, -1), (-1, -1, 1))])
+    expected = [[0, 0, 0, 1], [1, 0, 0, 0], [0, 0, 1, 0]]
+    np.testing.assert_array_equal(quaternions(half.astype(float)), expected)
+    root = math.sqrt(0.5)
+    np.testing.assert_allclose(quaternions(QUARTER), [0, 0, root, root], atol=1e-16)
 
 
 @pytest.mark.parametrize(

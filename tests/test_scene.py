@@ -11,18 +11,11 @@ import pytest
 from browser import visit
 
 from zygopin.branch import Branch, branch_axis
-from zygopin.drawing import (
-    FINGER_PAINTS,
-    GRASPING,
-    PENETRATING,
-    STABLE,
-    TOUCHING,
-    WOOD,
-    contact_paint,
-)
+from zygopin.drawing import GRASPING, PENETRATING, STABLE, TOUCHING, contact_paint
 from zygopin.errors import FileError, ParameterError
 from zygopin.foot import Foot
 from zygopin.grasp import check_grasp
+from zygopin.looks import FINGER_PAINTS, WOOD
 from zygopin.scene import export_scene, grasp_view
 
 HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)>&\"'"

@@ -18,9 +18,9 @@ from zygopin import (
     plot_strike,
     simulate_strike,
 )
-from zygopin.drawing import finger_paint
 from zygopin.errors import FileError, ParameterError, UnknownNameError
 from zygopin.figures import ACCENT, line_width
+from zygopin.looks import finger_paint
 from zygopin.remark_plots import LOST, WOOD
 from zygopin.strike_plots import MODE_COLOURS
 

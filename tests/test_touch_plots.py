@@ -7,8 +7,8 @@ import pytest
 from test_strike_plots import pixels, share
 
 from zygopin import Branch, Foot, ParameterError, plot_touch_bands
-from zygopin.drawing import finger_paint
 from zygopin.errors import FileError
+from zygopin.looks import finger_paint
 
 PAPER = Foot.preset("paper")
 BELOW = Branch(0.1, (0, 0, -0.6))

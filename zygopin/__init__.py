@@ -7,7 +7,6 @@ package costs nothing.
 from __future__ import annotations
 
 from importlib import import_module
-from importlib.metadata import version as _version
 
 _HOMES = {
     "atlas": ("Atlas", "branch_atlas"),
@@ -249,7 +248,9 @@ __all__ = [
 def __getattr__(name: str) -> object:
     """Load a public name's module on first use (PEP 562)."""
     if name == "__version__":
-        return _version("zygopin")
+        from importlib.metadata import version  # half of what the import would take
+
+        return version("zygopin")
     if name not in _HOME_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(import_module(f"{__name__}.{_HOME_OF[name]}"), name)

@@ -23,7 +23,6 @@ from zygopin.atlas_regions import (
     region_map,
     region_shares,
 )
-from zygopin.drawing import WOOD, finger_paint
 from zygopin.errors import ParameterError
 from zygopin.figures import (
     INK,
@@ -38,6 +37,7 @@ from zygopin.figures import (
     save_figure,
     unit_of,
 )
+from zygopin.looks import WOOD, finger_paint
 from zygopin.side_views import BARK, draw_side_view
 
 Floats = NDArray[np.float64]

@@ -24,19 +24,17 @@ from zygopin.drawing import (
     PENETRATING,
     STABLE,
     TOUCHING,
-    WOOD,
     draw_axes,
     draw_branch,
     draw_contacts,
     draw_foot,
-    drawn_radii,
-    finger_paint,
     moved_parts,
     rims,
     stretch_beyond,
 )
 from zygopin.files import write_text
 from zygopin.foot import Foot
+from zygopin.looks import WOOD, Paint, drawn_radii, finger_paint
 from zygopin.playback import (
     Playback,
     Span,
@@ -46,7 +44,6 @@ from zygopin.playback import (
     player_controls,
 )
 from zygopin.scene import direction_pairs, keys
-from zygopin.solids import Paint
 from zygopin.viewer import Player, Recorder, page, set_stage
 
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0)

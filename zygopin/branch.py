@@ -197,8 +197,10 @@ class Branch:
 
     def __getitem__(self, index: Any) -> Branch:  # noqa: ANN401
         shape = self.batch_shape
-        if len(shape) == 1:
-            return self.broadcast(shape)._changed(lambda x, _: x[index])
+        if len(shape) == 1:  # as below, in one step
+            return self._changed(
+                lambda x, tail: np.broadcast_to(x, (*shape, *tail))[index]
+            )
         places = np.arange(np.prod(shape, dtype=int)).reshape(shape)[index]
         return self.broadcast(shape)._changed(lambda x, _: x[places])
 

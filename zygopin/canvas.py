@@ -9,7 +9,8 @@ import numpy as np
 from meshcat.geometry import Box, Geometry
 from numpy.typing import ArrayLike, NDArray
 
-from zygopin.solids import Cloud, Facets, Frustum, Paint, Ring, Solid, Sphere, Thread
+from zygopin.looks import Paint
+from zygopin.solids import Cloud, Facets, Frustum, Ring, Solid, Sphere, Thread
 from zygopin.viewer import Recorder
 
 DECIMALS = 6

@@ -299,18 +299,18 @@ def _list_presets() -> None:
     from zygopin.foot import Foot
     from zygopin.presets import preset_names, read_preset
 
-    feet = {name: Foot.preset(name) for name in preset_names()}
-    rows = [
-        (
-            name,
-            f"{foot.rho:.4g}",
-            f"{math.degrees(foot.omega):.4g}",
-            f"{foot.scale * 1e3:.4g}",
-            f"{foot.thickness * 1e3:.4g}",
-            str(read_preset(name)["description"]),
+    rows = []
+    for name in preset_names():
+        values = read_preset(name)
+        foot = Foot.from_mapping(values)
+        numbers = (
+            foot.rho,
+            math.degrees(foot.omega),
+            foot.scale * 1e3,
+            foot.thickness * 1e3,
         )
-        for name, foot in feet.items()
-    ]
+        texts = (f"{number:.4g}" for number in numbers)
+        rows.append((name, *texts, str(values["description"])))
     headings = ("preset", "ρ", "ω [°]", "s [mm]", "skin [mm]", "what it is")
     print_table(headings, rows, "lrrrrl")
 

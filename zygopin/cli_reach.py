@@ -157,8 +157,7 @@ def _sets(
     feet: Sequence[Foot], finger: str, levels: int | None, depth: int | None
 ) -> Iterator[FingerReach]:
     """One set for each joint limit."""
-    from zygopin.reach import find_finger, finger_reach, levels_within
-    from zygopin.reach_scene import MOST_POINTS
+    from zygopin.reach import MOST_POINTS, find_finger, finger_reach, levels_within
 
     which = int(finger) if finger.isdecimal() else finger
     for foot in feet:

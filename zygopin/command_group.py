@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import atexit
 import errno
+import gc
 import io
 import os
 import sys
@@ -30,6 +32,8 @@ class OneLineErrors(click.Group):
             Never: raises SystemExit with the status.
         """
         kwargs["standalone_mode"] = False
+        # All that is left at exit goes with the process: no search for cycles in it.
+        atexit.register(gc.freeze)
         for stream in (sys.stdout, sys.stderr):
             if isinstance(stream, io.TextIOWrapper):
                 stream.reconfigure(errors="replace")  # ρ, on a terminal without it

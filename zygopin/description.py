@@ -1,29 +1,13 @@
-"""A foot as a URDF, expanded from the shipped templates by xacro.
+"""A foot as a URDF: what the shipped xacro templates expand to.
 
 The URDF's numbers come from the template alone, so that what ROS users expand and
-what Python returns is one text. A phalanx is a cylinder and two spheres; bare bones
-(a thickness below a millionth of the scale) are drawn, and weighed, as rods whose
-radius is 1 % of their length, because no loader takes a radius of zero.
+what Python returns is one text.
 """
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
-from pathlib import Path
-from tempfile import TemporaryDirectory
-from xml.parsers.expat import ExpatError
-
-import xacro
-import yaml
-
-from zygopin.errors import DescriptionError
 from zygopin.foot import Foot
-from zygopin.paths import XACRO_PATH
-
-_XACRO = threading.Lock()
-"""xacro keeps what it works on in globals: one expansion at a time."""
+from zygopin.shipped import shipped_urdf
 
 
 def to_urdf(foot: Foot, *, tendon: bool = False) -> str:
@@ -43,31 +27,9 @@ def to_urdf(foot: Foot, *, tendon: bool = False) -> str:
     Raises:
         DescriptionError: The template is missing or does not expand.
     """
-    arguments = {"tendon": "true" if tendon else "false"}
-    try:
-        with TemporaryDirectory(prefix="zygopin-") as folder, _expansion():
-            file = Path(folder) / "foot.yaml"
-            file.write_text(yaml.safe_dump(foot.to_mapping()), encoding="utf-8")
-            arguments["foot"] = str(file)
-            document = xacro.process_file(str(XACRO_PATH), mappings=arguments)
-    except (xacro.XacroException, ExpatError, OSError, RuntimeError) as error:
-        remedy = "restore the shipped template"
-        raise DescriptionError(f"{XACRO_PATH.name}: {error}", remedy) from error
-    for node in [*document.childNodes]:
-        if node is not document.documentElement:
-            document.removeChild(node)  # xacro's banner, and the template's own note
-    return str(document.toprettyxml(indent="  "))
+    ready = shipped_urdf(foot, tendon=tendon)
+    if ready is not None:
+        return ready
+    from zygopin.template import expand  # xacro takes its time: a preset needs none
 
-
-@contextmanager
-def _expansion() -> Iterator[None]:
-    """Use xacro alone, and leave PyYAML's safe loader as it was.
-
-    xacro teaches that loader tags which evaluate expressions, for every later user.
-    """
-    with _XACRO:
-        known = dict(yaml.SafeLoader.yaml_constructors)
-        try:
-            yield
-        finally:
-            yaml.SafeLoader.yaml_constructors = known
+    return expand(foot, tendon=tendon)

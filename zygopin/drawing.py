@@ -12,14 +12,8 @@ from zygopin.camera import View
 from zygopin.canvas import Canvas
 from zygopin.foot import Foot
 from zygopin.grasp import GraspReport
-from zygopin.solids import Paint
+from zygopin.looks import WOOD, Paint, drawn_radii, finger_paint
 
-FINGER_PAINTS = tuple(
-    map(Paint, (0x3F6FA8, 0x7D5BA6, 0x2B8F8C, 0xB85C85, 0x5A6B3B, 0x54669B))
-)
-"""Colours of the fingers in order; a foot with more of them starts again."""
-
-WOOD = Paint(0x9A6A3C, opacity=0.76)
 RINGS = tuple(
     (inner, outer, Paint(colour, opacity=0.8))
     for inner, outer, colour in (
@@ -45,40 +39,12 @@ STABLE = Paint(0xF0A30A, on_top=True)
 TOUCHING = Paint(0x7F93AD, on_top=True)
 PENETRATING = Paint(0xD62828, on_top=True)
 
-BARE_BONE = 0.02
-"""Radius of a drawn bone without skin, over the longest phalanx."""
-
 KNUCKLE = 1.05
 """Radius of a drawn joint over the radius of the phalanx before it."""
 
 
 TALON_ROOT = 0.45
 """Start of a talon beyond its phalanx's bone, over the phalanx's radius."""
-
-
-def finger_paint(index: int) -> Paint:
-    """The colour of a finger.
-
-    Args:
-        index: Its place among the fingers, from 0.
-
-    Returns:
-        The paint.
-    """
-    return FINGER_PAINTS[index % len(FINGER_PAINTS)]
-
-
-def drawn_radii(foot: Foot) -> NDArray[np.float64]:
-    """Radii that the phalanges are drawn with: their skin's, or a thin rod's.
-
-    Args:
-        foot: The foot.
-
-    Returns:
-        Radii [m], shape (P,).
-    """
-    thin = BARE_BONE * float(foot.lengths.max())
-    return foot.radii if foot.thickness > 0 else np.full(foot.phalanx_count, thin)
 
 
 def draw_foot(canvas: Canvas, foot: Foot, bones: NDArray[np.float64]) -> None:

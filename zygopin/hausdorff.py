@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.spatial import cKDTree
 
 from zygopin import checks
 from zygopin.errors import ParameterError
@@ -97,6 +96,8 @@ def nearest_points(
     Returns:
         Distances, in the points' unit, and indices into `targets`, both shape (N,).
     """
+    from scipy.spatial import cKDTree  # slow to load: only where used
+
     # Equal points make one leaf of any size, which a search walks through.
     kept = _first_of_each(targets)
     tree = cKDTree(targets[kept], balanced_tree=False)

@@ -10,7 +10,7 @@ from zygopin.canvas import Canvas
 from zygopin.contacts import Floats
 from zygopin.foot import Foot
 from zygopin.hold import Hold
-from zygopin.solids import Paint
+from zygopin.looks import Paint
 
 CONE = Paint(0xE8B71A, opacity=0.4, on_top=True)
 FORCE = Paint(0x1B3A6B, on_top=True)

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from zygopin.branch import Branch
 from zygopin.canvas import Canvas
 from zygopin.caption import Lengths, solid_branch_rows
-from zygopin.drawing import WOOD, draw_branch, rims
+from zygopin.drawing import draw_branch, rims
+from zygopin.looks import WOOD, Paint
 from zygopin.obstacle import Box, Capsule, ConvexMesh, Obstacle, Sphere
-from zygopin.solids import Paint
 
 PREY = Paint(0x9C8878, opacity=0.85)
 """A mouse's grey-brown; toes inside show through."""

@@ -79,13 +79,46 @@ def combinations(foot: Foot, poses: list[FingerPoses]) -> Combinations:
             total -= PENALTY * _colliding(foot, poses, earlier, finger)[row]
             if (earlier, finger) in foot.opposable_pairs:
                 grasping |= opposed(poses[earlier], new)[row]
-        # Stable, so that equals keep their order and a plan is always the same.
-        ranked = np.argsort(-(total + GRASP * grasping), axis=None, kind="stable")
-        row, pose = np.unravel_index(ranked[:BEAM], total.shape)
+        ranked = best_first((total + GRASP * grasping).ravel(), BEAM)
+        row, pose = np.unravel_index(ranked, total.shape)
         combos = np.concatenate([combos[row], pose[:, None]], axis=1)
         worth, grasps = total[row, pose], grasping[row, pose]
     free = grasps & (worth > -PENALTY / 2)
     return Combinations(combos, free, worth + GRASP * grasps)
+
+
+def most_worth(foot: Foot, poses: list[FingerPoses]) -> float:
+    """A worth that no combination of poses passes, however they fit together.
+
+    Args:
+        foot: The foot.
+        poses: Poses of every finger, all for one branch.
+
+    Returns:
+        The bound, added up as `combinations` does, so that rounding keeps it one.
+    """
+    worth = 0.0
+    for each in poses:
+        worth += float(_worth(foot, each).max())
+    return worth + GRASP
+
+
+def best_first(worth: Floats, most: int) -> Indices:
+    """The best of many, the best first.
+
+    Equals keep their order, so that a plan is always the same.
+
+    Args:
+        worth: What each is worth, shape (n,).
+        most: How many are wanted.
+
+    Returns:
+        Their indices, shape (min(n, most),).
+    """
+    chosen = np.arange(len(worth))
+    if len(worth) > most:  # the rest need not be sorted
+        chosen = np.flatnonzero(worth >= np.partition(worth, -most)[-most])
+    return chosen[np.argsort(-worth[chosen], kind="stable")][:most]
 
 
 def _worth(foot: Foot, poses: FingerPoses) -> Floats:

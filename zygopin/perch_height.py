@@ -8,7 +8,8 @@ from zygopin.branch import Branch
 from zygopin.clearance import Floats
 from zygopin.errors import ParameterError
 from zygopin.foot import Foot
-from zygopin.perch_combinations import all_poses, combinations
+from zygopin.perch_combinations import all_poses, combinations, most_worth
+from zygopin.wrap import FingerPoses
 
 COARSE_LEVELS = 4
 """Angles tried at each joint while heights are compared."""
@@ -64,15 +65,35 @@ def best_height(foot: Foot, branch: Branch) -> Branch:
     for _ in range(ROUNDS):
         gaps = np.linspace(low, high, HEIGHTS)
         poses = all_poses(foot, lowered(branch, top - gaps), COARSE_LEVELS)
-        worths = [
-            combinations(foot, [p.take(p.place == place) for p in poses]).worth[0]
-            for place in range(HEIGHTS)
-        ]
         # Of equally good heights the nearest: the foot sits rather than hangs.
-        best = float(gaps[np.argmax(worths - gaps / foot.size)])
+        best = float(gaps[best_place(foot, poses, -gaps / foot.size)])
         width = (high - low) / (HEIGHTS - 1)
         low, high = max(best - width, 0.0), best + width
     return lowered(branch, top - np.asarray(best))
+
+
+def best_place(foot: Foot, poses: list[FingerPoses], merits: Floats) -> int:
+    """The first of the places at which the foot's pose and a place's merit are best.
+
+    Places are tried from the most promising on, until no other can be better.
+
+    Args:
+        foot: The foot.
+        poses: Poses of every finger, for all the places.
+        merits: What each place is worth by itself, shape (places,).
+
+    Returns:
+        Index of the place.
+    """
+    places = range(len(merits))
+    at = [[each.take(each.place == place) for each in poses] for place in places]
+    promised = np.array([most_worth(foot, there) for there in at]) + merits
+    worths = np.full(len(merits), -np.inf)
+    for place in np.argsort(-promised, kind="stable"):
+        if promised[place] < worths.max():
+            break
+        worths[place] = combinations(foot, at[place]).worth[0] + merits[place]
+    return int(np.argmax(worths))
 
 
 def _highest(foot: Foot, branch: Branch) -> float:

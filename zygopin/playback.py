@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from zygopin.canvas import DECIMALS, Canvas
+from zygopin.rotations import quaternions
 
 TIME_DECIMALS = 9
 """Decimals of times in a page [s]: a strike takes tenths of a second."""
@@ -222,7 +222,7 @@ def _packed(canvas: Canvas, poses: NDArray[np.float64]) -> str:
     """
     units = canvas.in_units(poses)
     places = np.clip(units[..., :3, 3], -FARTHEST, FARTHEST)
-    turns = Rotation.from_matrix(poses[..., :3, :3].reshape(-1, 3, 3)).as_quat()
-    values = np.concatenate([places, turns.reshape(*places.shape[:-1], 4)], axis=-1)
+    turns = quaternions(poses[..., :3, :3])
+    values = np.concatenate([places, turns], axis=-1)
     whole = np.round(values * 10.0**DECIMALS).astype("<i4")
     return base64.b64encode(whole.tobytes()).decode()

@@ -19,6 +19,9 @@ from zygopin.ifs import ReachableSet, reachable_set
 MOST_LEVELS = 33
 """Equal levels of [0, 1] that a finger gets where their number is left open."""
 
+MOST_POINTS = 2_000_000
+"""Points of a finger's set: levels are fewer where it would have more."""
+
 
 @dataclass(frozen=True, eq=False)
 class FingerReach:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,7 +14,9 @@ from zygopin.archive import Content, write_archive
 from zygopin.errors import ParameterError
 from zygopin.foot import Foot
 from zygopin.reach import FingerReach
-from zygopin.validation import ValidationRow
+
+if TYPE_CHECKING:  # the rows come from the caller, and Pinocchio with them
+    from zygopin.validation import ValidationRow
 
 MILLIMETRES = 1e3
 """Millimetres in a metre."""

@@ -14,17 +14,20 @@ from numpy.typing import NDArray
 from zygopin.camera import framed
 from zygopin.canvas import Canvas
 from zygopin.caption import Key, Lengths, foot_rows, legend, section
-from zygopin.drawing import draw_axes, draw_foot, drawn_radii, finger_paint
+from zygopin.drawing import draw_axes, draw_foot
 from zygopin.files import write_text
 from zygopin.foot import Foot
 from zygopin.kinematics import forward_kinematics
-from zygopin.reach import MOST_LEVELS, FingerReach, finger_reach, levels_within
+from zygopin.looks import Paint, drawn_radii, finger_paint
+from zygopin.reach import (
+    MOST_LEVELS,
+    MOST_POINTS,
+    FingerReach,
+    finger_reach,
+    levels_within,
+)
 from zygopin.scene import direction_pairs, keys
-from zygopin.solids import Paint
 from zygopin.viewer import Recorder, page, set_stage
-
-MOST_POINTS = 2_000_000
-"""Points of a finger's set: levels are fewer where it would have more."""
 
 MOST_DOTS = 7_000
 """Dots that a cloud is thinned to: all clouds together stay below two megabytes."""

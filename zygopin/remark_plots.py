@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin.drawing import finger_paint
 from zygopin.engagement import engaged_junctions
 from zygopin.figures import (
     ACCENT,
@@ -29,6 +28,7 @@ from zygopin.figures import (
     unit_of,
 )
 from zygopin.foot import Foot
+from zygopin.looks import finger_paint
 from zygopin.phalanx_sweep import Sweep, about_z
 from zygopin.remark import Counterexample, counterexample
 

@@ -58,6 +58,32 @@ def angles_between(matrices: Floats) -> Floats:
     return np.asarray(np.arctan2(np.linalg.norm(sines, axis=-1), cosines))
 
 
+def quaternions(matrices: Floats) -> Floats:
+    """Unit quaternions of rotations.
+
+    Without SciPy, which takes half a second to load.
+
+    Args:
+        matrices: Rotations, shape (…, 3, 3).
+
+    Returns:
+        Quaternions (x, y, z, w), shape (…, 4), whose largest component is positive.
+    """
+    diagonal = np.diagonal(matrices, axis1=-2, axis2=-1)
+    trace = diagonal.sum(axis=-1)
+    # Four times the products of each component with all: any row is a multiple.
+    products = np.empty((*matrices.shape[:-2], 4, 4))
+    products[..., :3, :3] = matrices + matrices.swapaxes(-1, -2)
+    for axis, (i, j) in enumerate(_ASIDE):
+        products[..., axis, axis] = 1 - trace + 2 * diagonal[..., axis]
+        aside = matrices[..., i, j] - matrices[..., j, i]
+        products[..., axis, 3] = products[..., 3, axis] = aside
+    products[..., 3, 3] = 1 + trace
+    largest = np.argmax(np.diagonal(products, axis1=-2, axis2=-1), axis=-1)
+    row = np.take_along_axis(products, largest[..., None, None], axis=-2)[..., 0, :]
+    return np.asarray(row / np.linalg.norm(row, axis=-1, keepdims=True))
+
+
 def turns_between(times: Floats, matrices: Floats) -> Callable[[Floats], Floats]:
     """Turns of constant speed from one rotation to the next.
 

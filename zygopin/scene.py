@@ -17,13 +17,10 @@ from zygopin.drawing import (
     PENETRATING,
     STABLE,
     TOUCHING,
-    WOOD,
     draw_axes,
     draw_branch,
     draw_contacts,
     draw_foot,
-    drawn_radii,
-    finger_paint,
     rims,
     stretch_beyond,
 )
@@ -33,7 +30,7 @@ from zygopin.foot import Foot
 from zygopin.grasp import GraspReport
 from zygopin.hold import Hold
 from zygopin.hold_drawing import draw_hold, pull_arrow
-from zygopin.solids import Paint
+from zygopin.looks import WOOD, Paint, drawn_radii, finger_paint
 from zygopin.viewer import Recorder, page, set_stage
 
 WIDE_BRANCH = 0.8

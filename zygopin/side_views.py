@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin.drawing import WOOD, drawn_radii, finger_paint
 from zygopin.figures import Axes, Circle, Polygon, Unit, draw_toe
 from zygopin.grasp import GraspReport
+from zygopin.looks import WOOD, drawn_radii, finger_paint
 
 Floats = NDArray[np.float64]
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import uuid
-from dataclasses import dataclass
 from typing import Any
 
 import meshcat.geometry as shapes
 import numpy as np
 from numpy.typing import NDArray
+
+from zygopin.looks import Paint
 
 FRONT_SIDE = 0
 """The viewer's number for drawing a surface from outside only."""
@@ -17,49 +18,6 @@ WIDE = 0.15
 """Radius, in units of the view, from which a cylinder needs more sides."""
 
 _NAMES = uuid.uuid5(uuid.NAMESPACE_DNS, "zygopin.scene")
-
-
-@dataclass(frozen=True)
-class Paint:
-    """How a surface looks.
-
-    Attributes:
-        colour: Colour as 0xRRGGBB.
-        opacity: 1: opaque; less: what is behind shows through.
-        on_top: Whether it is drawn over all else, even from behind.
-    """
-
-    colour: int
-    opacity: float = 1.0
-    on_top: bool = False
-
-    def shaded(self, factor: float) -> Paint:
-        """This paint with its colour's channels multiplied by a factor up to 1."""
-        channels = (int((self.colour >> shift & 0xFF) * factor) for shift in (16, 8, 0))
-        red, green, blue = channels
-        return Paint(red << 16 | green << 8 | blue, self.opacity, self.on_top)
-
-    def tinted(self, share: float) -> Paint:
-        """This paint with a share of white, from 0 to 1, mixed into its colour."""
-        channels = (self.colour >> shift & 0xFF for shift in (16, 8, 0))
-        red, green, blue = (round(c + share * (255 - c)) for c in channels)
-        return Paint(red << 16 | green << 8 | blue, self.opacity, self.on_top)
-
-    @property
-    def css(self) -> str:
-        """The colour as CSS writes it."""
-        return f"#{self.colour:06x}"
-
-    def material(self) -> shapes.MeshPhongMaterial:
-        """The viewer's material."""
-        return shapes.MeshPhongMaterial(
-            color=self.colour,
-            opacity=self.opacity,
-            transparent=self.opacity < 1 or self.on_top,
-            side=FRONT_SIDE,
-            depthTest=not self.on_top,
-            shininess=25,
-        )
 
 
 class Sphere(shapes.Sphere):  # type: ignore[misc]
@@ -144,7 +102,7 @@ class Solid(shapes.Mesh):  # type: ignore[misc]
     """A mesh named after its path, with its place in the order of drawing."""
 
     def __init__(self, path: str, geometry: shapes.Geometry, paint: Paint) -> None:
-        material = paint.material()
+        material = _material(paint)
         super().__init__(geometry, material)
         self.order = int(paint.on_top)
         _name_parts(path, self, geometry, material)
@@ -154,6 +112,18 @@ class Solid(shapes.Mesh):  # type: ignore[misc]
         data: dict[str, Any] = super().lower()
         data["object"]["renderOrder"] = self.order
         return data
+
+
+def _material(paint: Paint) -> shapes.MeshPhongMaterial:
+    """The viewer's material for a paint."""
+    return shapes.MeshPhongMaterial(
+        color=paint.colour,
+        opacity=paint.opacity,
+        transparent=paint.opacity < 1 or paint.on_top,
+        side=FRONT_SIDE,
+        depthTest=not paint.on_top,
+        shininess=25,
+    )
 
 
 def _name_parts(path: str, *parts: shapes.SceneElement) -> None:

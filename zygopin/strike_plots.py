@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 
 from zygopin import checks
-from zygopin.drawing import finger_paint
 from zygopin.figures import (
     INK,
     PALE,
@@ -19,6 +18,7 @@ from zygopin.figures import (
     unit_of,
 )
 from zygopin.finger import Finger
+from zygopin.looks import finger_paint
 from zygopin.obstacle import obstacle_noun
 from zygopin.trajectory import EventKind, Mode, StrikeTrajectory
 

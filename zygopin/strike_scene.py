@@ -11,17 +11,10 @@ from zygopin.branch import Branch
 from zygopin.camera import DISTANCE, View, framed, wrap_direction
 from zygopin.canvas import Canvas
 from zygopin.caption import Key
-from zygopin.drawing import (
-    STABLE,
-    draw_axes,
-    draw_foot,
-    drawn_radii,
-    finger_paint,
-    moved_parts,
-    stretch_beyond,
-)
+from zygopin.drawing import STABLE, draw_axes, draw_foot, moved_parts, stretch_beyond
 from zygopin.errors import ParameterError
 from zygopin.files import write_text
+from zygopin.looks import Paint, drawn_radii, finger_paint
 from zygopin.obstacle import Capsule, obstacle_noun
 from zygopin.obstacle_drawing import (
     draw_obstacle,
@@ -30,7 +23,6 @@ from zygopin.obstacle_drawing import (
 )
 from zygopin.playback import Playback, Span, Track, phalanx_frames
 from zygopin.scene import direction_pairs, keys
-from zygopin.solids import Paint
 from zygopin.strike_caption import controls, strike_caption
 from zygopin.trajectory import Mode, StrikeTrajectory
 from zygopin.viewer import Player, Recorder, page, set_stage

@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from zygopin import checks
 from zygopin.branch import Branch
-from zygopin.drawing import finger_paint
 from zygopin.errors import ParameterError
 from zygopin.figures import (
     INK,
@@ -26,6 +25,7 @@ from zygopin.figures import (
     unit_of,
 )
 from zygopin.foot import Foot
+from zygopin.looks import finger_paint
 from zygopin.touch import touch_intervals
 
 OMEGAS = np.radians(np.linspace(5.0, 175.0, 35))
