@@ -102,6 +102,34 @@ def test_an_index_takes_branches_out_of_a_batch():
         batch[1].radius[0] = 1
 
 
+def test_entries_are_those_of_the_broadcast_branch():
+    radii = np.arange(1.0, 4.0)
+    batch = Branch(radii, [[(0, 0, -9)], [(0, 0, -8)]])  # (2, 3)
+    every, part = batch.broadcast((4, 2, 3)), slice(5, 11)
+    some = batch.entries((4, 2, 3), part)
+    assert some.batch_shape == (6,)
+    assert (some.radius == every.radius[part]).all()
+    assert (some.centre == every.centre[part]).all()
+    one = Branch(1, (0, 0, -9)).entries((7,), slice(2, 5))
+    assert one.batch_shape == ()
+    assert one.radius == 1.0
+
+
+def test_what_is_known_of_a_batch_by_hand():
+    batch = Branch([1.0, 2.0], [(0, 0, -3), (1.6, 7, -1.2)], length=[4.0, 6.0])
+    assert batch.half_length.tolist() == [2, 3]
+    assert batch.largest_extent == pytest.approx(2 + math.sqrt(1.6**2 + 49 + 1.2**2))
+    assert batch.least_radius == 1.0
+    # The second's axis passes the origin at 2 m, on the bark; its end is at y = 4.
+    assert batch.holds_origin.tolist() == [False, False]
+    assert Branch(
+        [1, 1, 1], [(0, y, -0.5) for y in (0, 2, 4)], length=5
+    ).holds_origin.tolist() == [True, True, False]
+    for name in ("half_length", "holds_origin"):
+        with pytest.raises(ValueError, match="read-only"):
+            getattr(batch, name)[0] = 0
+
+
 def test_one_taken_out_is_one_branch():
     one = Branch(np.array([1.0, 2.0]), (0, 0, -9))[1]
     assert one.batch_shape == ()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -165,7 +167,26 @@ def test_without_pairs_nothing_is_near():
     foot = SIZES["paper"]
     bones, _ = scattered(foot, 3, seed=9)
     none = np.zeros(0, dtype=int), np.zeros(0, dtype=int)
-    assert np.isposinf(collision.least_skin_distance(bones, foot.radii, none)).all()
+    for engine in (clearance, collision):
+        assert np.isposinf(engine.least_skin_distance(bones, foot.radii, none)).all()
+
+
+@pytest.mark.parametrize("engine", [clearance, collision])
+def test_both_queries_at_once_are_each_by_itself(engine):
+    foot = SIZES["parrot"]
+    bones, branch = scattered(foot, 300, seed=12)
+    pairs = np.triu_indices(foot.phalanx_count, 1)
+    for poses in (bones, bones[0], bones.reshape(3, 100, -1, 2, 3)[:, :1]):
+        some = branch if poses.ndim == 4 else branch[:5]
+        near, apart = engine.distances(poses, foot.radii, some, pairs)
+        alone = engine.branch_clearance(poses, foot.radii, some)
+        for field in dataclasses.fields(near):
+            assert (getattr(near, field.name) == getattr(alone, field.name)).all()
+        least = engine.least_skin_distance(poses, foot.radii, pairs)
+        assert (apart == least).all()
+        assert apart.shape == poses.shape[:-3]
+        exact = clearance.skin_distance(poses, foot.radii, pairs).min(axis=-1)
+        assert np.abs(apart - exact).max() < 1e-9 * foot.size
 
 
 @pytest.mark.parametrize(

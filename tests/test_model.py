@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import pickle
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -149,6 +150,15 @@ def test_it_survives_pickling(owl):
     controls = np.random.default_rng(5).random((4, 14))
     assert copy.foot == owl.foot
     assert (copy.forward(controls) == owl.forward(controls)).all()
+
+
+def test_threads_may_share_it_and_no_answer_changes_later(owl):
+    poses = np.random.default_rng(7).random((8, 60, 14))
+    expected = [forward_kinematics(OWL, each) for each in poses]
+    with ThreadPoolExecutor(8) as pool:
+        found = list(pool.map(owl.forward, poses))
+    for one, other in zip(found, expected, strict=True):
+        assert np.abs(one - other).max() < 1e-14 * OWL.size
 
 
 def test_lengths_scale_with_the_foot():
