@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from strategies import controls_for, feet
 
-from zygopin.directions import SERIAL, directions, product, running_sum
+from zygopin.directions import SERIAL, cosine_and_sine, directions, product, running_sum
 from zygopin.foot import Finger, Foot
 
 
@@ -34,6 +34,15 @@ def test_directions_at_the_poles_of_the_tangent():
     assert found[0, 0] == pytest.approx([1, 0, -1, 0], abs=5e-16)
     assert found[1, 0] == pytest.approx([0, 1, 0, -1], abs=5e-16)
     assert found[:, 0, 0].tolist() == [1, 0]
+
+
+def test_cosine_and_sine_are_numpys_to_rounding():
+    angles = np.concatenate([np.linspace(-80, 80, 200_001), np.pi * np.arange(-30, 31)])
+    found = cosine_and_sine(angles / 2)
+    assert np.abs(found - [np.cos(angles), np.sin(angles)]).max() < 1e-15
+    assert cosine_and_sine(np.array(0.25)) == pytest.approx(
+        [math.cos(0.5), math.sin(0.5)]
+    )
 
 
 @pytest.mark.parametrize("count", [0, 1, 63, 64, 65, 1000])

@@ -27,8 +27,7 @@ FEET = 64
 def directions(foot: Foot, controls: Floats) -> Floats:
     """Cosine and sine of each phalanx's pitch: MODEL.md, section 2.
 
-    Phalanx k lies at v₀ + ω(v₁ + … + vₖ) below the horizontal. Both come from the
-    tangent of half that angle, which is one function where NumPy would take two.
+    Phalanx k lies at v₀ + ω(v₁ + … + vₖ) below the horizontal.
 
     Args:
         foot: The foot.
@@ -38,11 +37,26 @@ def directions(foot: Foot, controls: Floats) -> Floats:
         Cosines, then sines, shape (2, P, n).
     """
     turns, start = _half_pitch(foot)
-    tangent = product(turns, controls.T)
-    tangent += start
-    np.tan(tangent, out=tangent)
+    half = product(turns, controls.T)
+    half += start
+    return cosine_and_sine(half)
+
+
+def cosine_and_sine(half: Floats) -> Floats:
+    """Both of twice an angle, from its tangent: one function where NumPy takes two.
+
+    cos 2x = 2/(1 + tan²x) − 1, sin 2x = 2·tan x/(1 + tan²x), to rounding for every x:
+    at the tangent's poles it is large and finite.
+
+    Args:
+        half: Half the angles [rad], shape (…); what is in it is lost.
+
+    Returns:
+        Cosines, then sines, shape (2, …).
+    """
+    tangent = np.tan(half, out=half)
     result = np.empty((2, *tangent.shape))
-    cosine, sine = result
+    cosine, sine = result[0, ...], result[1, ...]
     np.multiply(tangent, tangent, out=cosine)
     cosine += 1
     np.divide(2, cosine, out=cosine)

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from zygopin.directions import cosine_and_sine
 from zygopin.foot import Foot
 
 Floats = NDArray[np.float64]
@@ -107,9 +108,9 @@ class ProjectedFinger:
 
     def direction(self, pitch: Floats) -> Complexes:
         """Projected unit vectors of pitches [rad]; their length is the stretch."""
-        sine = np.sin(pitch)
+        cosine, sine = cosine_and_sine(np.asarray(pitch / 2))
         result = np.empty(np.shape(pitch), dtype=complex)
-        result.real = self.forward * np.cos(pitch) - self.shear * sine
+        result.real = self.forward * cosine - self.shear * sine
         result.imag = -self.drop * sine
         return result
 
