@@ -39,4 +39,4 @@ def spare_memory() -> float:
 
 def description() -> dict[str, object]:
     """The machine in plain values."""
-    return {"processor": processor(), "cores": cores(), "system": platform.platform()}
+    return {"processor": processor(), "cores": cores(), "system": platform.system()}

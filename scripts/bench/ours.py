@@ -18,7 +18,10 @@ _check: Any = getattr(zygopin, "grasp_verdicts", check_grasp)
 VERDICTS: str = _check.__name__
 """The function that gives verdicts alone."""
 
-THREADED = "threads" in inspect.signature(_check).parameters
+THREADED = all(
+    "threads" in inspect.signature(function).parameters
+    for function in (_check, forward_kinematics)
+)
 """Whether the number of threads can be chosen."""
 
 

@@ -17,6 +17,9 @@ WIDTH, HEIGHT = 11.0, 8.0
 
 MEGABYTE = 1e6
 
+HEADROOM = 100
+"""What is left free above the memory for its legend, as a factor."""
+
 Value = Callable[[Point], float]
 
 
@@ -97,6 +100,7 @@ def _memory(panel: Axes, points: Sequence[Point]) -> None:
             label=f"{LABELS[work]}, the result itself",
         )
     _logarithmic(panel)
+    panel.set_ylim(top=HEADROOM * panel.get_ylim()[1])
     _name(panel, "number of configurations", "memory beyond the result [MB]")
 
 
@@ -115,7 +119,7 @@ def _threads(panel: Axes, points: Sequence[Point]) -> None:
         label = None if work == "kinematics" else "in proportion"
         panel.plot(threads, ideal, ":", color=COLOURS[work], label=label)
     panel.set_xticks(sorted({p.threads for p in some}))
-    panel.set_xlim(left=0)
+    panel.set_xlim(0.5, max(p.threads for p in some) + 0.5)
     panel.set_ylim(bottom=0)
     _name(panel, "threads", "millions of configurations per second")
     panel.set_title(f"{most:,} configurations", fontsize=9)
