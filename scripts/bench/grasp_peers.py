@@ -116,7 +116,7 @@ PEERS: tuple[Checker, ...] = (
     ),
     Checker(
         "coal, collisions in parallel",
-        "computeCollisionsInParallel: only whether anything penetrates the branch",
+        "less work: computeCollisionsInParallel, whether anything penetrates the branch",
         other("coal_peers", "collisions"),
         packages=COAL,
         share=1 / 4,

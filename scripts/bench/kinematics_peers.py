@@ -40,7 +40,7 @@ OWN: tuple[Poser, ...] = (
 )
 """Zygopin's own; the first is what all others are held against."""
 
-PEERS: tuple[Poser, ...] = (
+COMPILED: tuple[Poser, ...] = (
     Poser(
         "Pinocchio, C++ loop",
         "forwardKinematics and 18 points, compiled with -O3 around its own library",
@@ -63,6 +63,10 @@ PEERS: tuple[Poser, ...] = (
         needs=why_not,
         threads=cores(),
     ),
+)
+"""Pinocchio without Python in between, which takes a compiler half a minute once."""
+
+PEERS: tuple[Poser, ...] = (
     Poser(
         "Pinocchio, call by call",
         "framesForwardKinematics with one Data; 18 origins read as views",
@@ -96,7 +100,7 @@ PEERS: tuple[Poser, ...] = (
         "pytorch-kinematics",
         "one batch, float64, no gradients; 18 matrices",
         ways.pytorch_kinematics,
-        packages=("pytorch-kinematics", "torch"),
+        packages=("torch", "pytorch-kinematics"),
         share=1 / 25,
         tolerance=SINGLE,
     ),
@@ -129,4 +133,4 @@ PEERS: tuple[Poser, ...] = (
         share=1 / 10,
     ),
 )
-"""All of them; which are installed is asked when they are timed."""
+"""The other tools; which are installed is asked when they are timed."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import platform
 from collections.abc import Iterable
 from pathlib import Path
@@ -38,5 +39,7 @@ def spare_memory() -> float:
 
 
 def description() -> dict[str, object]:
-    """The machine in plain values."""
-    return {"processor": processor(), "cores": cores(), "system": platform.system()}
+    """The machine in plain values, and how busy it is before anything is measured."""
+    load, _, _ = os.getloadavg()
+    busy = round(load, 1)
+    return {"processor": processor(), "cores": cores(), "load_before": busy}

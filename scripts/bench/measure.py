@@ -41,6 +41,7 @@ class Sizes:
         levels: Levels of controls of the reachable sets.
         cells: Cells along each side of the map.
         poses: Random poses tried for each branch of the map.
+        compiling: 1 if Pinocchio's loop in C++ may be compiled, else 0.
     """
 
     configurations: int = 40_960
@@ -51,11 +52,12 @@ class Sizes:
     levels: int = 64
     cells: int = 32
     poses: int = 100
+    compiling: int = 1
 
     @classmethod
     def quick(cls) -> Sizes:
         """Just enough to run everything."""
-        return cls(200, 2, 0, 1000, 2, 8, 5, 3)
+        return cls(200, 2, 0, 1000, 2, 8, 5, 3, 0)
 
     @classmethod
     def names(cls) -> list[str]:
@@ -104,9 +106,11 @@ def measure(
 
 def _suites(parts: Sequence[str], sizes: Sizes) -> list[Suite[Any, Any]]:
     """The jobs that zygopin shares with peers."""
-    makers = {"kinematics": suites.kinematics, "checks": suites.checks}
-    chosen = [makers[part](sizes.configurations) for part in makers if part in parts]
-    return [*chain.from_iterable(chosen)]
+    count, compiling = sizes.configurations, bool(sizes.compiling)
+    chosen = []
+    if "kinematics" in parts:
+        chosen += suites.kinematics(count, compiling=compiling)
+    return chosen + (suites.checks(count) if "checks" in parts else [])
 
 
 def _told(suite: Suite[Any, Any]) -> Suite[Any, Any]:

@@ -34,10 +34,11 @@ class MujocoFoot:
         order = [self.model.joint(i).name for i in range(self.model.njnt)]
         self.q = job.angles(order)
         tips = {names.tip_link(finger) for finger in job.foot.fingers}
-        self._tips = [i for i, link in enumerate(job.links) if link in tips]
-        self.phalanges = [i for i, link in enumerate(job.links) if link not in tips]
-        self._bodies = [self.model.body(job.links[i]).id for i in self.phalanges]
-        self._sites = [self.model.site(job.links[i]).id for i in self._tips]
+        tip = np.array([link in tips for link in job.links])
+        self.phalanges, self._tips = np.flatnonzero(~tip), np.flatnonzero(tip)
+        bodies = [self.model.body(job.links[i]).id for i in self.phalanges]
+        sites = [self.model.site(job.links[i]).id for i in self._tips]
+        self._bodies, self._sites = np.array(bodies), np.array(sites)
         self._qpos = self.data.qpos
         self._xpos, self._site_xpos = self.data.xpos, self.data.site_xpos
 

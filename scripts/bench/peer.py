@@ -28,7 +28,7 @@ class Peer(Generic[Job, Result]):
         name: What it is called in the table.
         computes: What it does, as a reader should know it to compare.
         make: A job to a function that does it; its preparations do not count.
-        packages: Distributions that it needs.
+        packages: Distributions that it needs; the last is what is measured.
         needs: Why it cannot run here for other reasons; empty if it can.
         share: Part of the configurations that it gets, for slow ones less than 1.
         tolerance: Difference from zygopin's answer that is allowed, over the foot's

@@ -12,7 +12,6 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
@@ -38,7 +37,7 @@ LIBRARIES = ("-lpinocchio_default", "-lboost_serialization")
 TIME_LIMIT = 600
 """Seconds that the compiler may take; it takes half a minute."""
 
-KEPT = Path(tempfile.gettempdir()) / "zygopin-benchmark"
+KEPT = Path.home() / ".cache" / "zygopin-benchmark"
 """Where the library stays for the next run."""
 
 
@@ -146,7 +145,7 @@ def _library() -> ctypes.CDLL:
     command = ["g++", *OPTIONS, f"-I{prefix}/include", f"-I{eigen}", str(SOURCE)]
     command += [f"-L{prefix}/lib", f"-Wl,-rpath,{prefix}/lib", *LIBRARIES]
     key = repr((command, SOURCE.read_bytes(), pin.__version__)).encode()
-    KEPT.mkdir(exist_ok=True)
+    KEPT.mkdir(parents=True, exist_ok=True)
     file = KEPT / f"loop-{hashlib.sha256(key).hexdigest()[:16]}.so"
     if not file.exists():
         print("compiling Pinocchio's loop (half a minute)", file=sys.stderr)

@@ -37,7 +37,8 @@ def number(value: float, digits: int = 3) -> str:
 def _lines(found: Found) -> Iterator[str]:
     """Line after line."""
     machine = found["machine"]
-    yield f"{machine['processor']}, {machine['cores']} cores"
+    load = machine["load_before"]
+    yield f"{machine['processor']}, {machine['cores']} cores, load before {load}"
     yield ", ".join(f"{name} {value}" for name, value in found["versions"].items())
     yield from _rows(found["rows"])
     for name, why in found["missing"].items():

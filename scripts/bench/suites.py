@@ -30,12 +30,21 @@ KINEMATICS, RANDOM, TOUCHING, BRANCHES, SINGLE = (
 )
 
 
-def kinematics(count: int) -> list[Suite[Any, Any]]:
-    """Forward kinematics of many random control sequences."""
+def kinematics(count: int, *, compiling: bool = True) -> list[Suite[Any, Any]]:
+    """Forward kinematics of many random control sequences.
+
+    Args:
+        count: How many.
+        compiling: Whether peers may take part that a compiler has to make first.
+
+    Returns:
+        The one suite.
+    """
     foot = Foot.preset(PRESET)
     job = Posing(foot, _controls(foot, count))
-    own, peers = kinematics_peers.OWN, kinematics_peers.PEERS
-    return [Suite(KINEMATICS, job, own, peers, same_bones)]
+    made, ready = kinematics_peers.COMPILED, kinematics_peers.PEERS
+    peers = (*made, *ready) if compiling else ready
+    return [Suite(KINEMATICS, job, kinematics_peers.OWN, peers, same_bones)]
 
 
 def checks(count: int) -> list[Suite[Any, Any]]:
