@@ -116,7 +116,7 @@ PEERS: tuple[Checker, ...] = (
     ),
     Checker(
         "coal, collisions in parallel",
-        "less work: computeCollisionsInParallel, whether anything penetrates the branch",
+        "less work: computeCollisionsInParallel, does anything penetrate the branch",
         other("coal_peers", "collisions"),
         packages=COAL,
         share=1 / 4,
