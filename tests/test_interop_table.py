@@ -66,32 +66,3 @@ def test_notes_that_tools_share_are_written_once(script):
     lines = script.table({"b": second, "A": first}).splitlines()
     assert [line.rpartition(" | ")[2] for line in lines[2:4]] == ["1, 2 |", "1, 3 |"]
     assert lines[5:] == ["1. One.", "2. Two.", "3. Three."]
-
-
-def test_a_stale_table_is_renewed_and_the_rest_is_kept(script):
-    readme = f"# a\n\n{script.START}\nold\n{script.END}\nz\n"
-    fresh = script.renewed(readme, {"Tool": ROW})
-    assert fresh != readme
-    assert fresh.startswith(f"# a\n\n{script.START}\n\n| tool |")
-    assert fresh.endswith(f"{script.END}\nz\n")
-    assert script.renewed(fresh, {"Tool": ROW}) == fresh
-
-
-def test_a_stale_table_is_named_and_left_alone_by_check(
-    script, tmp_path, monkeypatch, capsys
-):
-    file = tmp_path / "README.md"
-    file.write_text(f"{script.START}\n{script.END}\n")
-    monkeypatch.setattr(script, "README", file)
-    monkeypatch.setattr(sys, "argv", ["interop-table", "--check"])
-    assert script.main() == 1
-    assert capsys.readouterr().out.startswith("stale: the table of tools")
-    assert file.read_text() == f"{script.START}\n{script.END}\n"
-    monkeypatch.setattr(sys, "argv", ["interop-table"])
-    assert script.main() == 0
-    assert "| Drake |" in file.read_text()
-
-
-def test_a_readme_without_the_marks_is_refused(script):
-    with pytest.raises(ValueError, match="needs the lines"):
-        script.renewed("# no marks", {"Tool": ROW})

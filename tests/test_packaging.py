@@ -88,10 +88,3 @@ def test_the_engines_agree_in_a_small_run_of_the_comparison():
     )
     assert result.returncode == 0, result.stdout + result.stderr
     assert result.stdout.splitlines()[-1] == "agree"
-
-
-def test_the_benchmark_runs():
-    few = ("--configurations", "100", "--levels", "8", "--runs", "1")
-    few += ("--cells", "6", "--poses", "3")
-    command = [sys.executable, str(ROOT / "scripts/benchmark"), *few]
-    subprocess.run(command, check=True, capture_output=True)

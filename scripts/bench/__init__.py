@@ -1,0 +1,1 @@
+"""What `scripts/benchmark` measures: zygopin and its peers on the same work."""
