@@ -174,6 +174,7 @@ def test_controls_and_branches_broadcast():
     assert_full_check(PARROT, controls[2, 0], Branch(radii, (0, 0, -0.02)))
     tilted = Branch(0.004, (0, 0, -0.01), rng.normal(size=(4, 3)) * (1, 1, 0.3))
     assert_full_check(PARROT, controls[:, 0, None], tilted)
+    assert_full_check(PARROT, controls[0, 0], tilted)
     single = assert_full_check(PARROT, controls[0, 0], PERCH)
     assert single.stable.shape == ()
     assert grasp_verdicts(PARROT, np.empty((0, 14)), PERCH).stable.shape == (0,)

@@ -11,14 +11,23 @@ from numpy.typing import NDArray
 
 from zygopin import checks
 
-BLOCK = 1024
-"""Entries worked on at once: what is in between stays in a core's cache."""
+BLOCK = 2048
+"""Entries worked on at once: what is in between stays in a core's cache, and threads
+have something to do between turns of the interpreter."""
+
+KEPT = 2**24
+"""Bytes that the C library is to keep for us. It gives freed memory back to the system
+above what it was seen to hand out at once, and new pages cost more than arithmetic."""
 
 WORTH = 16
 """Blocks for each thread below which starting it costs more than it brings."""
 
 MOST_THREADS = 256
 """Threads that may be asked for."""
+
+
+Part = slice | NDArray[np.intp]
+"""Some entries of a flat batch: from one to another, or listed."""
 
 
 def in_blocks(
@@ -48,6 +57,7 @@ def in_blocks(
         threads = min(_cores(), len(blocks) // WORTH)
     else:
         threads = checks.integer("threads", threads, 1, MOST_THREADS)
+    np.empty(KEPT, np.uint8)  # freed at once: glibc's thresholds are now that high
     if threads <= 1:
         _do(work, blocks)
         return
@@ -60,7 +70,7 @@ def in_blocks(
 
 
 def entries(
-    values: NDArray[Any], batch: tuple[int, ...], part: slice, tail: int = 0
+    values: NDArray[Any], batch: tuple[int, ...], part: Part, tail: int = 0
 ) -> NDArray[Any]:
     """Some entries of what broadcasts to a batch, without making all of them.
 
@@ -79,7 +89,9 @@ def entries(
         return values
     if leading == batch:
         return values.reshape(-1, *one)[part]
-    places = np.unravel_index(np.arange(part.start, part.stop), batch)
+    if isinstance(part, slice):
+        part = np.arange(part.start, part.stop)
+    places = np.unravel_index(part, batch)
     return np.broadcast_to(values, (*batch, *one))[places]
 
 

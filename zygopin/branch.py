@@ -183,7 +183,7 @@ class Branch:
             lambda x, tail: np.broadcast_to(x, (*shape, *tail)).reshape(-1, *tail)
         )
 
-    def entries(self, batch: tuple[int, ...], part: slice) -> Branch:
+    def entries(self, batch: tuple[int, ...], part: blocks.Part) -> Branch:
         """Some entries of this branch broadcast to a batch.
 
         Args:

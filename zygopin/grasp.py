@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin import checks
-from zygopin.blocks import BLOCK, entries
+from zygopin.blocks import entries
 from zygopin.branch import Branch, check_base
 from zygopin.clearance import Clearance, Floats, dot, least_skin_distance, norm
 from zygopin.directions import FEET
@@ -31,6 +31,9 @@ keep a contact, and a parrot's toe is placed to 60 nm."""
 
 LARGEST_TOLERANCE = 0.1
 """Contact tolerance, over the foot's size, above which a touch means nothing."""
+
+BLOCK = 1024
+"""Cases checked at once: what is in between stays in the cache."""
 
 FARTHEST, THINNEST = 1e6, 1e-6
 """A branch's extent and least radius over the foot's size: beyond, rounding or the

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from zygopin import checks
-from zygopin.blocks import entries, in_blocks
+from zygopin.blocks import Part, entries, in_blocks
 from zygopin.branch import Branch
 from zygopin.directions import Floats, directions, product, running_sum
 from zygopin.foot import Foot
@@ -79,18 +79,71 @@ def grasp_verdicts(
     check_branch(foot, branch)
     shapes = values.shape[:-1], branch.batch_shape
     batch = checks.common_batch("controls and branch", *shapes)
-    sieve = _Sieve(foot, criteria or Criteria())
-    found = np.zeros((3, int(np.prod(batch, dtype=int))), dtype=bool)
-    only = None if branch.batch_shape else sieve.section(branch)
+    count = int(np.prod(batch, dtype=int))
+    cases = _Cases(foot, values, branch, batch, criteria or Criteria())
+    touched, entered = np.empty((2, count), dtype=bool)
+    sieve = _Sieve.of(foot, cases)
 
-    def block(part: slice) -> None:
-        poses = np.atleast_2d(entries(values, batch, part, 1))
-        branches = branch.entries(batch, part)
-        section = only or sieve.section(branches)
-        sieve.verdicts(poses, branches, section, out=found[:, part])
+    def sift(part: slice) -> None:
+        touched[part], entered[part] = sieve.met(cases, part)
 
-    in_blocks(block, found.shape[1], threads)
+    in_blocks(sift, count, threads)
+    free = np.flatnonzero(~(touched | entered))
+    if branch.length is not None:
+        touched |= entered  # what enters the infinite branch may pass by this one
+    met = np.flatnonzero(touched)
+    found = np.zeros((3, count), dtype=bool)
+
+    def check(part: slice) -> None:
+        found[:, met[part]] = cases.checked(met[part])
+
+    def compare(part: slice) -> None:
+        found[2, free[part]] = cases.apart(free[part])
+
+    in_blocks(check, len(met), threads)
+    in_blocks(compare, len(free), threads)
     return GraspVerdicts(*found.reshape(3, *batch))
+
+
+@dataclass(frozen=True, eq=False)
+class _Cases:
+    """Poses on branches, a flat batch of them.
+
+    Attributes:
+        foot: The foot.
+        controls: Checked controls, shape (…, P).
+        branch: The branches, which leave the base outside.
+        batch: Shape of the batch.
+        criteria: What counts as contact and as a grasp.
+    """
+
+    foot: Foot
+    controls: Floats
+    branch: Branch
+    batch: tuple[int, ...]
+    criteria: Criteria
+
+    def poses(self, part: Part) -> Floats:
+        """Controls of some cases, shape (n, P), or (1, P) where all have the same."""
+        return np.atleast_2d(entries(self.controls, self.batch, part, 1))
+
+    def checked(self, part: Part) -> Booleans:
+        """Stable, grasping, feasible of some cases by the full check, shape (3, n)."""
+        branch = self.branch.entries(self.batch, part)
+        report = check_grasp(
+            self.foot, self.poses(part), branch, criteria=self.criteria
+        )
+        return np.array([report.stable, report.grasping, report.feasible])
+
+    def sections(self, part: Part) -> _Section:
+        """The branches' sections."""
+        branch = self.branch.entries(self.batch, part)
+        return _Section.of(self.foot, branch, self.criteria.metres(self.foot))
+
+    def apart(self, part: Part) -> Booleans:
+        """Whether no two fingers collide, shape (n,) or (1,)."""
+        bones = posed_bones(self.foot, self.poses(part), threads=1)
+        return fingers_apart(self.foot, bones, self.criteria.metres(self.foot))
 
 
 class _Section(NamedTuple):
@@ -100,7 +153,7 @@ class _Section(NamedTuple):
         across: Share of a toe's horizontal that goes across, shape (P, n).
         rise: Share of it that goes up, shape (P, n).
         level: Share of the vertical that goes up, shape (n,).
-        centre: The axes, across and up [m], shape (2, n).
+        centre: The axes, across and up [m], shape (2, 1, n).
         inside: Squared distance below which a bone is too near, shape (P, n) [m²].
         outside: Squared distance above which it touches nothing, shape (P, n) [m²].
     """
@@ -112,30 +165,8 @@ class _Section(NamedTuple):
     inside: Floats
     outside: Floats
 
-    def projected(self, vectors: Floats) -> tuple[Floats, Floats]:
-        """Vectors of the toes' planes, level and down, shape (2, P, n), across and up.
-
-        Returns:
-            Two arrays of shape (P, n).
-        """
-        along, down = vectors
-        up = along * self.rise
-        up -= down * self.level
-        return along * self.across, up
-
-
-class _Sieve:
-    """Settles the clear cases of a block, and has the others checked in full."""
-
-    def __init__(self, foot: Foot, criteria: Criteria) -> None:
-        self.foot, self.criteria = foot, criteria
-        self.tolerance = criteria.metres(foot)
-        azimuth = as_azimuths(foot, None)[foot.finger_of_phalanx]
-        self.toes = np.stack([np.cos(azimuth), np.sin(azimuth)], axis=-1)
-        self.lengths = foot.lengths[:, None]
-        self.sums = running_sum(foot) * foot.lengths
-
-    def section(self, branch: Branch) -> _Section:
+    @classmethod
+    def of(cls, foot: Foot, branch: Branch, tolerance: float) -> _Section:
         """The section of a branch, or of a batch of shape (n,)."""
         x, y, z = np.atleast_2d(branch.axis).T
         level = np.hypot(x, y)
@@ -145,70 +176,80 @@ class _Sieve:
         first = np.array([np.where(upright, 1.0, -y / length), x / length])
         second = np.array([-z * first[1], z * first[0]])
         place = np.atleast_2d(branch.centre).T
-        centre = np.array([first, second]) * place[:2]
-        centre = centre.sum(axis=1) + [np.zeros_like(level), level] * place[2]
+        centre = (np.array([first, second]) * place[:2]).sum(axis=1, keepdims=True)
+        centre[1] = centre[1] + level * place[2]
         radius = np.atleast_1d(np.asarray(branch.radius))
-        reach = radius + self.foot.radii[:, None]
-        size = radius + np.abs(place).sum(axis=0) + self.foot.size
-        slack = self.tolerance + ROUNDING * size
+        reach = radius + foot.radii[:, None]
+        size = radius + np.abs(place).sum(axis=0) + foot.size
+        slack = tolerance + ROUNDING * size
         inside, outside = np.maximum(reach - slack, 0) ** 2, (reach + slack) ** 2
-        across, rise = self.toes @ first, self.toes @ second
+        azimuth = as_azimuths(foot, None)[foot.finger_of_phalanx, None]
+        across, rise = (
+            np.cos(azimuth) * way[0] + np.sin(azimuth) * way[1]
+            for way in (first, second)
+        )
         wide = np.broadcast_shapes(across.shape, outside.shape)
         across, rise = np.broadcast_to(across, wide), np.broadcast_to(rise, wide)
-        return _Section(across, rise, level, centre, inside, outside)
+        return cls(across, rise, level, centre, inside, outside)
 
-    def verdicts(
-        self, poses: Floats, branch: Branch, section: _Section, out: Booleans
-    ) -> None:
-        """Enter stable, grasping, feasible, shape (3, n), for a block.
+
+@dataclass(frozen=True, eq=False)
+class _Sieve:
+    """Tells which bones are clearly within a branch, and which clearly outside.
+
+    Attributes:
+        foot: The foot.
+        steps: Where each bone ends in its toe's plane, and how it gets there from its
+            start, out of `directions`: shape (2P, P) [m].
+        section: The branch's section where there is only one.
+    """
+
+    foot: Foot
+    steps: Floats
+    section: _Section | None
+
+    @classmethod
+    def of(cls, foot: Foot, cases: _Cases) -> _Sieve:
+        steps = np.concatenate([running_sum(foot), np.eye(foot.phalanx_count)])
+        only = None if cases.branch.batch_shape else cases.sections(slice(0, 1))
+        return cls(foot, steps * foot.lengths, only)
+
+    def met(self, cases: _Cases, part: slice) -> tuple[Booleans, Booleans]:
+        """Whether some bone may touch the infinite branch, and whether one enters it.
 
         Args:
-            poses: Controls, shape (n, P), or (1, P) for all branches.
-            branch: A branch, or n of them.
-            section: Its, or their, section.
-            out: Where the verdicts go; nothing but False before.
+            cases: Poses and branches.
+            part: Which n of them.
+
+        Returns:
+            Two masks, shape (n,): the first leaves nothing out, the second is certain.
         """
-        squares = self._squares(poses, section)
+        section = self.section or cases.sections(part)
+        squares = self._squares(cases.poses(part), section)
         entered = squares < section.inside
-        touched = np.any((squares <= section.outside) & ~entered, axis=0)
-        entered = np.any(entered, axis=0)
-        free = ~(touched | entered)
-        if branch.length is not None:
-            touched |= entered  # what enters the infinite branch may pass by this one
-        if free.any():
-            alone = poses if len(poses) == 1 else poses[free]
-            bones = posed_bones(self.foot, alone, threads=1)
-            out[2, free] = fingers_apart(self.foot, bones, self.tolerance)
-        if touched.any():
-            some = poses if len(poses) == 1 else poses[touched]
-            branches = branch[touched] if branch.batch_shape else branch
-            report = check_grasp(self.foot, some, branches, criteria=self.criteria)
-            out[:, touched] = report.stable, report.grasping, report.feasible
+        near = squares <= section.outside
+        near &= ~entered
+        return np.logical_or.reduce(near), np.logical_or.reduce(entered)
 
     def _squares(self, poses: Floats, section: _Section) -> Floats:
         """Squared distances of the bones from the axes [m²], shape (P, n)."""
         pointing = directions(self.foot, poses)
-        ends = np.empty_like(pointing)
-        for one, sums in zip(pointing, ends, strict=True):
-            product(self.sums, one, out=sums)
-        pointing *= self.lengths
-        x, y = section.projected(ends)
-        u, v = section.projected(pointing)
-        x -= section.centre[0]
-        y -= section.centre[1]
-        along = x * u
-        along += y * v
-        square = u * u
-        square += v * v
+        along, down = (product(self.steps, each) for each in pointing)
+        shape = (2, *section.outside.shape[:1], -1)
+        along, down = along.reshape(shape), down.reshape(shape)
+        bones = np.empty((2, *np.broadcast(along, section.rise).shape))
+        np.multiply(along, section.across, out=bones[0])
+        np.multiply(along, section.rise, out=bones[1])
+        bones[1] -= down * section.level
+        end, step = bones[:, 0], bones[:, 1]
+        end -= section.centre
+        # How far back from its end a bone is nearest to the axis, in bones.
+        back, square = np.add.reduce(end * step), np.add.reduce(step * step)
         np.maximum(square, TINY, out=square)
-        # How far back from its end a bone is nearest, in bones.
-        along /= square
-        np.clip(along, 0, 1, out=along)
-        u *= along
-        v *= along
-        x -= u
-        y -= v
-        x *= x
-        y *= y
-        x += y
-        return x
+        back /= square
+        np.minimum(np.maximum(back, 0, out=back), 1, out=back)
+        step *= back
+        end -= step
+        end *= end
+        squares: Floats = np.add.reduce(end)
+        return squares

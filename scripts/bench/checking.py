@@ -8,10 +8,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from bench.ours import Floats, Verdicts
 from bench.peer import WrongAnswerError, check
 from bench.posing import Posing
-from zygopin import Branch, Criteria, Foot, check_grasp
+from zygopin import Branch, Criteria, Foot, GraspVerdicts, check_grasp
+from zygopin.clearance import Floats
 from zygopin.grasp import PARAMETER_SLACK, GraspReport
 
 Booleans = NDArray[np.bool_]
@@ -209,6 +209,6 @@ def compare(name: str, job: Checking, answer: Answer, tolerance: float) -> int:
     return int((~sure).sum())
 
 
-def of_verdicts(found: Verdicts) -> Answer:
+def of_verdicts(found: GraspReport | GraspVerdicts) -> Answer:
     """Zygopin's own verdicts as an answer."""
     return Answer(stable=found.stable, grasping=found.grasping, feasible=found.feasible)

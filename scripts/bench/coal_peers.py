@@ -10,9 +10,9 @@ import numpy as np
 import pinocchio as pin
 
 from bench.checking import Answer, Checking, decided
-from bench.ours import Floats
 from bench.peer import cores
 from bench.pinocchio_foot import REACH, Check, PinocchioFoot, each, stem_pose
+from zygopin.clearance import Floats
 from zygopin.grasp import finger_pairs
 
 

@@ -8,9 +8,9 @@ import fcl
 import numpy as np
 
 from bench.checking import Checking, decided
-from bench.ours import Floats
 from bench.pinocchio_foot import REACH, Check, PinocchioFoot, each, stem_pose
 from zygopin import Branch
+from zygopin.clearance import Floats
 
 
 def as_written(job: Checking) -> Check:

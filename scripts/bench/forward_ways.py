@@ -15,10 +15,10 @@ from typing import Any
 
 import numpy as np
 
-from bench.ours import Floats
 from bench.pinocchio_loop import PinocchioLoop
 from bench.posing import Posing
 from zygopin import names
+from zygopin.clearance import Floats
 
 Forward = Callable[[], Floats]
 

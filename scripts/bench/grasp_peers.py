@@ -10,10 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from importlib import import_module
 
-from bench import ours
 from bench.checking import Answer, Checking, of_verdicts
 from bench.peer import Peer, cores
-from zygopin import check_grasp, make_engine
+from zygopin import check_grasp, grasp_verdicts, make_engine
 
 Check = Callable[[], Answer]
 Checker = Peer[Checking, Answer]
@@ -24,7 +23,9 @@ POSED = "FK by Pinocchio, 14 distances, verdict"
 def verdicts(threads: int | None) -> Callable[[Checking], Check]:
     """Zygopin's verdicts alone."""
     return lambda job: (
-        lambda: of_verdicts(ours.verdicts(job.foot, job.controls, job.branch, threads))
+        lambda: of_verdicts(
+            grasp_verdicts(job.foot, job.controls, job.branch, threads=threads)
+        )
     )
 
 
@@ -57,15 +58,14 @@ def other(module: str, name: str) -> Callable[[Checking], Check]:
 OWN: tuple[Checker, ...] = (
     Checker(
         "zygopin, verdicts alone",
-        f"{ours.VERDICTS}: FK, 14 clearances, fingers, all verdicts",
+        "grasp_verdicts: FK, 14 clearances, fingers, all verdicts",
         verdicts(None),
-        threads=cores() if ours.THREADED else 1,
+        threads=cores(),
     ),
     Checker(
         "zygopin, verdicts alone, one thread",
         "the same on one thread",
         verdicts(1),
-        needs=lambda: "" if ours.THREADED else "threads cannot be chosen",
     ),
     Checker(
         "zygopin, check_grasp",

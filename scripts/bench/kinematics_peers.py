@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from bench import forward_ways as ways
-from bench import ours
-from bench.ours import Floats
 from bench.peer import Peer, cores
 from bench.pinocchio_loop import why_not
 from bench.posing import Posing
+from zygopin import forward_kinematics
+from zygopin.clearance import Floats
 
 Forward = Callable[[], Floats]
 
@@ -21,7 +21,9 @@ SINGLE = 1e-6
 
 def closed_form(threads: int | None) -> Callable[[Posing], Forward]:
     """Zygopin's own, on so many threads."""
-    return lambda job: lambda: ours.bones(job.foot, job.controls, threads)
+    return lambda job: (
+        lambda: forward_kinematics(job.foot, job.controls, threads=threads)
+    )
 
 
 OWN: tuple[Poser, ...] = (
@@ -29,13 +31,12 @@ OWN: tuple[Poser, ...] = (
         "zygopin, forward_kinematics",
         "14 bones in closed form",
         closed_form(None),
-        threads=cores() if ours.THREADED else 1,
+        threads=cores(),
     ),
     Poser(
         "zygopin, forward_kinematics, one thread",
         "the same on one thread",
         closed_form(1),
-        needs=lambda: "" if ours.THREADED else "threads cannot be chosen",
     ),
 )
 """Zygopin's own; the first is what all others are held against."""

@@ -8,10 +8,10 @@ import mujoco as mj
 import numpy as np
 
 from bench.checking import Checking
-from bench.ours import Floats
 from bench.pinocchio_foot import REACH, Check, each, stem_pose
 from bench.posing import Posing
 from zygopin import names, to_mjcf
+from zygopin.clearance import Floats
 
 
 class MujocoFoot:

@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 
 from bench.checking import Answer, Checking, decided
-from bench.ours import Floats
 from zygopin import Branch, names
+from zygopin.clearance import Floats
 from zygopin.grasp import least_gap
 
 Check = Callable[[], Answer]

@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bench.ours import Floats
+from zygopin.clearance import Floats
 
 SOURCE = Path(__file__).with_name("pinocchio_loop.cpp")
 

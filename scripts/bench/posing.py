@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from bench.ours import Floats
 from zygopin import Foot, names, to_urdf
+from zygopin.clearance import Floats
 
 
 @dataclass(frozen=True)

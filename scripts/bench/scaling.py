@@ -9,13 +9,12 @@ from functools import partial
 
 import numpy as np
 
-from bench import ours
 from bench.machine import spare_memory
-from bench.ours import Floats
 from bench.peer import cores
 from bench.suites import CENTRE, PRESET, RADIUS
 from bench.timing import Spread, interleaved
-from zygopin import Branch, Finger, Foot
+from zygopin import Branch, Finger, Foot, forward_kinematics, grasp_verdicts
+from zygopin.clearance import Floats
 
 SHARE = 0.4
 """Part of the spare memory that a run may need; others use the machine as well."""
@@ -102,7 +101,7 @@ def _points(foot: Foot, branch: Branch, count: int, runs: int) -> Iterator[Point
 
 def thread_counts() -> list[int]:
     """Numbers of threads that can be asked for."""
-    return sorted({1, cores()}) if ours.THREADED else [1]
+    return sorted({1, cores()})
 
 
 def _works(
@@ -110,7 +109,7 @@ def _works(
 ) -> dict[str, Callable[[], object]]:
     """Both kinds of work."""
     return {
-        "kinematics": partial(ours.bones, foot, controls, threads),
+        "kinematics": partial(forward_kinematics, foot, controls, threads=threads),
         "checks": partial(_verdicts, foot, controls, branch, threads),
     }
 
@@ -119,7 +118,7 @@ def _verdicts(
     foot: Foot, controls: Floats, branch: Branch, threads: int
 ) -> tuple[object, ...]:
     """The verdicts alone: a report that holds them has more."""
-    found = ours.verdicts(foot, controls, branch, threads)
+    found = grasp_verdicts(foot, controls, branch, threads=threads)
     return found.stable, found.grasping, found.feasible
 
 

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from bench import grasp_peers, kinematics_peers, ours
+from bench import grasp_peers, kinematics_peers
 from bench.checking import Answer, Checking, compare
-from bench.ours import Floats
 from bench.peer import check
 from bench.posing import Posing
 from bench.suite import Suite
-from zygopin import Branch, Foot, plan_perch
+from zygopin import Branch, Foot, forward_kinematics, plan_perch
+from zygopin.clearance import Floats
 
 PRESET, RADIUS, CENTRE = "parrot", 0.008, (0.0, 0.0, -0.0097)
 
@@ -78,7 +78,7 @@ def same_bones(
     """Hold bones, or the junctions between them, against zygopin's."""
     given = answer() if callable(answer) else answer
     bones = given if given.ndim == 4 else job.bones(given)  # else (N, P + F, 3)
-    right = ours.bones(job.foot, job.controls)
+    right = forward_kinematics(job.foot, job.controls)
     apart = float(np.abs(bones - right).max()) / job.foot.size
     check(name, apart, tolerance)
     return f"bones within {apart:.0e} of the foot's size"
