@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from zygopin import checks
 from zygopin.blocks import entries
 from zygopin.branch import Branch, check_base
-from zygopin.clearance import Clearance, Floats, dot, least_skin_distance, norm
+from zygopin.clearance import Clearance, Floats, least_skin_distance, norm
 from zygopin.directions import FEET
 from zygopin.engine import Engine, EngineName, make_engine
 from zygopin.errors import ParameterError, UnknownNameError
@@ -354,17 +354,19 @@ def least_product(foot: Foot, vectors: Floats, tangent: Booleans) -> Floats:
 
 
 class _Pairs(NamedTuple):
-    """Tangent phalanges of opposable fingers, for poses of a batch.
+    """Pairs of phalanges of opposable fingers, for poses that are tangent with both.
 
     Attributes:
         batch: Shape of the batch.
-        pose: Number of the pose of each pair in the batch, shape (m,).
-        first: Its one phalanx, shape (m,).
-        second: Its other phalanx, shape (m,).
+        pose: Numbers in the batch of the m poses with such a pair, shape (m,).
+        tangent: Whether they are tangent with both of a pair, shape (m, M).
+        first: The one phalanx of each pair, shape (M,).
+        second: The other phalanx, shape (M,).
     """
 
     batch: tuple[int, ...]
     pose: NDArray[np.intp]
+    tangent: Booleans
     first: NDArray[np.intp]
     second: NDArray[np.intp]
 
@@ -373,8 +375,9 @@ def _tangent_pairs(foot: Foot, tangent: Booleans) -> _Pairs:
     """The pairs among phalanges that are tangent, shape (…, P)."""
     i, j = _opposed(foot)
     flat = tangent.reshape(-1, tangent.shape[-1])
-    pose, pair = np.nonzero(flat[:, i] & flat[:, j])
-    return _Pairs(tangent.shape[:-1], pose, i[pair], j[pair])
+    both = flat[:, i] & flat[:, j]
+    pose = np.flatnonzero(both.any(axis=1))
+    return _Pairs(tangent.shape[:-1], pose, both[pose], i, j)
 
 
 def _least(pairs: _Pairs, vectors: Floats) -> Floats:
@@ -382,9 +385,10 @@ def _least(pairs: _Pairs, vectors: Floats) -> Floats:
     least = np.full(math.prod(pairs.batch), np.nan)
     if len(pairs.pose):
         vectors = _wide(vectors, (*pairs.batch, *vectors.shape[-2:]))
-        flat = vectors.reshape(-1, *vectors.shape[-2:])
-        products = dot(flat[pairs.pose, pairs.first], flat[pairs.pose, pairs.second])
-        np.fmin.at(least, pairs.pose, products)
+        some = vectors.reshape(-1, *vectors.shape[-2:])[pairs.pose]
+        # All products at once: cheaper than to gather the vectors of each pair first.
+        products = (some @ some.swapaxes(-1, -2))[:, pairs.first, pairs.second]
+        least[pairs.pose] = np.where(pairs.tangent, products, np.inf).min(axis=1)
     return least.reshape(pairs.batch)
 
 
