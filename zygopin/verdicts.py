@@ -82,10 +82,10 @@ def grasp_verdicts(
     count = int(np.prod(batch, dtype=int))
     cases = _Cases(foot, values, branch, batch, criteria or Criteria())
     touched, entered = np.empty((2, count), dtype=bool)
-    sieve = _Sieve.of(foot, cases)
+    sieve = _Sieve.of(cases)
 
     def sift(part: slice) -> None:
-        touched[part], entered[part] = sieve.met(cases, part)
+        touched[part], entered[part] = sieve.met(part)
 
     in_blocks(sift, count, threads)
     free = np.flatnonzero(~(touched | entered))
@@ -198,34 +198,34 @@ class _Sieve:
     """Tells which bones are clearly within a branch, and which clearly outside.
 
     Attributes:
-        foot: The foot.
+        cases: Poses and branches.
         steps: Where each bone ends in its toe's plane, and how it gets there from its
             start, out of `directions`: shape (2P, P) [m].
         section: The branch's section where there is only one.
     """
 
-    foot: Foot
+    cases: _Cases
     steps: Floats
     section: _Section | None
 
     @classmethod
-    def of(cls, foot: Foot, cases: _Cases) -> _Sieve:
+    def of(cls, cases: _Cases) -> _Sieve:
+        foot = cases.foot
         steps = np.concatenate([running_sum(foot), np.eye(foot.phalanx_count)])
         only = None if cases.branch.batch_shape else cases.sections(slice(0, 1))
-        return cls(foot, steps * foot.lengths, only)
+        return cls(cases, steps * foot.lengths, only)
 
-    def met(self, cases: _Cases, part: slice) -> tuple[Booleans, Booleans]:
+    def met(self, part: slice) -> tuple[Booleans, Booleans]:
         """Whether some bone may touch the infinite branch, and whether one enters it.
 
         Args:
-            cases: Poses and branches.
-            part: Which n of them.
+            part: Which n cases.
 
         Returns:
             Two masks, shape (n,): the first leaves nothing out, the second is certain.
         """
-        section = self.section or cases.sections(part)
-        squares = self._squares(cases.poses(part), section)
+        section = self.section or self.cases.sections(part)
+        squares = self._squares(self.cases.poses(part), section)
         entered = squares < section.inside
         near = squares <= section.outside
         near &= ~entered
@@ -233,7 +233,7 @@ class _Sieve:
 
     def _squares(self, poses: Floats, section: _Section) -> Floats:
         """Squared distances of the bones from the axes [m²], shape (P, n)."""
-        pointing = directions(self.foot, poses)
+        pointing = directions(self.cases.foot, poses)
         along, down = (product(self.steps, each) for each in pointing)
         shape = (2, *section.outside.shape[:1], -1)
         along, down = along.reshape(shape), down.reshape(shape)
