@@ -15,11 +15,11 @@ BLOCK = 2048
 """Entries worked on at once: what is in between stays in a core's cache, and threads
 have something to do between turns of the interpreter."""
 
-KEPT = 2**24
+KEPT = 2**25 - 2**12
 """Bytes that the C library is to keep for us. It gives freed memory back to the system
 above what it was seen to hand out at once, and new pages cost more than arithmetic."""
 
-WORTH = 16
+WORTH = 4
 """Blocks for each thread below which starting it costs more than it brings."""
 
 MOST_THREADS = 256
@@ -57,7 +57,7 @@ def in_blocks(
         threads = min(_cores(), len(blocks) // WORTH)
     else:
         threads = checks.integer("threads", threads, 1, MOST_THREADS)
-    np.empty(KEPT, np.uint8)  # freed at once: glibc's thresholds are now that high
+    np.empty(KEPT, np.uint8)  # freed at once: the thresholds are that high now
     if threads <= 1:
         _do(work, blocks)
         return

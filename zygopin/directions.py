@@ -36,9 +36,9 @@ def directions(foot: Foot, controls: Floats) -> Floats:
     Returns:
         Cosines, then sines, shape (2, P, n).
     """
-    turns, start = _half_pitch(foot)
-    half = product(turns, controls.T)
-    half += start
+    turns, start = pitch_matrix(foot)
+    half = product(turns / 2, controls.T)
+    half += start / 2
     return cosine_and_sine(half)
 
 
@@ -78,7 +78,7 @@ def product(matrix: Floats, columns: Floats, out: Floats | None = None) -> Float
     """
     count = columns.shape[1]
     if out is None:
-        out = np.empty((len(matrix), count))
+        out = np.empty((len(matrix), count), matrix.dtype)
     size = max(SERIAL // matrix.size, 1)
     whole = count - count % size
     for part, length in ((slice(0, whole), size), (slice(whole, count), count - whole)):
@@ -111,7 +111,15 @@ def running_sum(foot: Foot) -> Floats:
 
 
 @lru_cache(FEET)
-def _half_pitch(foot: Foot) -> tuple[Floats, Floats]:
-    """Half a phalanx's pitch as a matrix (P, P) for controls, and a start (P, 1)."""
+def pitch_matrix(foot: Foot) -> tuple[Floats, Floats]:
+    """What makes pitches out of controls: v₀ + ω(v₁ + … + vₖ).
+
+    Args:
+        foot: The foot.
+
+    Returns:
+        A matrix for controls, shape (P, P), and what is added, shape (P, 1) [rad].
+    """
     start = np.array([finger.orientation for finger in foot.fingers])
-    return running_sum(foot) * (foot.omega / 2), start[foot.finger_of_phalanx, None] / 2
+    start = start[foot.finger_of_phalanx, None]
+    return checks.read_only(running_sum(foot) * foot.omega), checks.read_only(start)

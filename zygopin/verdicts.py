@@ -14,7 +14,7 @@ import numpy as np
 from zygopin import checks
 from zygopin.blocks import Part, entries, in_blocks
 from zygopin.branch import Branch
-from zygopin.directions import Floats, directions, product, running_sum
+from zygopin.directions import Floats, pitch_matrix, product, running_sum
 from zygopin.foot import Foot
 from zygopin.grasp import (
     Booleans,
@@ -25,12 +25,13 @@ from zygopin.grasp import (
 )
 from zygopin.kinematics import Controls, as_azimuths, posed_bones, read_controls
 
-ROUNDING = 1e-12
-"""Rounding of a distance to the axis, over the size of what it is computed from; a
-thousand times what was seen."""
+ROUNDING = 16
+"""Bound on the rounding of a distance to the axis, in units of the last place of what
+it is computed from, for each radian of pitch: ten times what was seen."""
 
-TINY = 1e-300
-"""Squared length of a bone's projection that stands for none: it divides safely."""
+BROAD = 1e-3
+"""Rounding, over the foot's size, that would leave too much to the full check: single
+precision, which takes half the time, is used below."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +83,7 @@ def grasp_verdicts(
     count = int(np.prod(batch, dtype=int))
     cases = _Cases(foot, values, branch, batch, criteria or Criteria())
     touched, entered = np.empty((2, count), dtype=bool)
-    sieve = _Sieve.of(cases)
+    sieve = _Sieve(cases)
 
     def sift(part: slice) -> None:
         touched[part], entered[part] = sieve.met(part)
@@ -135,11 +136,6 @@ class _Cases:
         )
         return np.array([report.stable, report.grasping, report.feasible])
 
-    def sections(self, part: Part) -> _Section:
-        """The branches' sections."""
-        branch = self.branch.entries(self.batch, part)
-        return _Section.of(self.foot, branch, self.criteria.metres(self.foot))
-
     def apart(self, part: Part) -> Booleans:
         """Whether no two fingers collide, shape (n,) or (1,)."""
         bones = posed_bones(self.foot, self.poses(part), threads=1)
@@ -166,8 +162,14 @@ class _Section(NamedTuple):
     outside: Floats
 
     @classmethod
-    def of(cls, foot: Foot, branch: Branch, tolerance: float) -> _Section:
-        """The section of a branch, or of a batch of shape (n,)."""
+    def of(cls, foot: Foot, branch: Branch, slack: float) -> _Section:
+        """The section of a branch, or of a batch of shape (n,).
+
+        Args:
+            foot: The foot.
+            branch: The branch, or n of them.
+            slack: Distance to the skin up to which a bone is not clear of it [m].
+        """
         x, y, z = np.atleast_2d(branch.axis).T
         level = np.hypot(x, y)
         upright = level == 0
@@ -178,10 +180,7 @@ class _Section(NamedTuple):
         place = np.atleast_2d(branch.centre).T
         centre = (np.array([first, second]) * place[:2]).sum(axis=1, keepdims=True)
         centre[1] = centre[1] + level * place[2]
-        radius = np.atleast_1d(np.asarray(branch.radius))
-        reach = radius + foot.radii[:, None]
-        size = radius + np.abs(place).sum(axis=0) + foot.size
-        slack = tolerance + ROUNDING * size
+        reach = np.atleast_1d(np.asarray(branch.radius)) + foot.radii[:, None]
         inside, outside = np.maximum(reach - slack, 0) ** 2, (reach + slack) ** 2
         azimuth = as_azimuths(foot, None)[foot.finger_of_phalanx, None]
         across, rise = (
@@ -193,27 +192,31 @@ class _Section(NamedTuple):
         return cls(across, rise, level, centre, inside, outside)
 
 
-@dataclass(frozen=True, eq=False)
 class _Sieve:
-    """Tells which bones are clearly within a branch, and which clearly outside.
+    """Tells which bones are clearly within a branch, and which clearly outside."""
 
-    Attributes:
-        cases: Poses and branches.
-        steps: Where each bone ends in its toe's plane, and how it gets there from its
-            start, out of `directions`: shape (2P, P) [m].
-        section: The branch's section where there is only one.
-    """
-
-    cases: _Cases
-    steps: Floats
-    section: _Section | None
-
-    @classmethod
-    def of(cls, cases: _Cases) -> _Sieve:
-        foot = cases.foot
+    def __init__(self, cases: _Cases) -> None:
+        self.cases, foot = cases, cases.foot
+        turns, start = pitch_matrix(foot)
+        pitch = 1 + float((np.abs(start[:, 0]) + turns.sum(axis=1)).max())
+        extent = cases.branch.largest_extent + foot.size
+        self.kind: type[np.floating] = np.float32
+        if ROUNDING * pitch * extent * np.finfo(np.float32).eps > BROAD * foot.size:
+            self.kind = np.float64
+        rounding = ROUNDING * pitch * extent * float(np.finfo(self.kind).eps)
+        self.slack = cases.criteria.metres(foot) + rounding
+        # Where each bone ends in its toe's plane, and how it gets there from its start.
         steps = np.concatenate([running_sum(foot), np.eye(foot.phalanx_count)])
-        only = None if cases.branch.batch_shape else cases.sections(slice(0, 1))
-        return cls(cases, steps * foot.lengths, only)
+        self.turns, self.start, self.steps = (
+            x.astype(self.kind) for x in (turns, start, steps * foot.lengths)
+        )
+        self.only = None if cases.branch.batch_shape else self.section(slice(0, 1))
+
+    def section(self, part: slice) -> _Section:
+        """The section of some cases' branches."""
+        branch = self.cases.branch.entries(self.cases.batch, part)
+        section = _Section.of(self.cases.foot, branch, self.slack)
+        return _Section(*(field.astype(self.kind) for field in section))
 
     def met(self, part: slice) -> tuple[Booleans, Booleans]:
         """Whether some bone may touch the infinite branch, and whether one enters it.
@@ -224,7 +227,7 @@ class _Sieve:
         Returns:
             Two masks, shape (n,): the first leaves nothing out, the second is certain.
         """
-        section = self.section or self.cases.sections(part)
+        section = self.only or self.section(part)
         squares = self._squares(self.cases.poses(part), section)
         entered = squares < section.inside
         near = squares <= section.outside
@@ -233,11 +236,13 @@ class _Sieve:
 
     def _squares(self, poses: Floats, section: _Section) -> Floats:
         """Squared distances of the bones from the axes [m²], shape (P, n)."""
-        pointing = directions(self.cases.foot, poses)
-        along, down = (product(self.steps, each) for each in pointing)
-        shape = (2, *section.outside.shape[:1], -1)
+        pitch = product(self.turns, poses.T.astype(self.kind))
+        pitch += self.start
+        along, down = (product(self.steps, turn(pitch)) for turn in (np.cos, np.sin))
+        shape = (2, *pitch.shape)
         along, down = along.reshape(shape), down.reshape(shape)
-        bones = np.empty((2, *np.broadcast(along, section.rise).shape))
+        wide = np.broadcast_shapes(shape, section.rise.shape)
+        bones = np.empty((2, *wide), self.kind)
         np.multiply(along, section.across, out=bones[0])
         np.multiply(along, section.rise, out=bones[1])
         bones[1] -= down * section.level
@@ -245,7 +250,7 @@ class _Sieve:
         end -= section.centre
         # How far back from its end a bone is nearest to the axis, in bones.
         back, square = np.add.reduce(end * step), np.add.reduce(step * step)
-        np.maximum(square, TINY, out=square)
+        np.maximum(square, np.finfo(self.kind).tiny, out=square)
         back /= square
         np.minimum(np.maximum(back, 0, out=back), 1, out=back)
         step *= back
