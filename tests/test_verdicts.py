@@ -14,6 +14,7 @@ from strategies import controls_for, feet, reals
 
 from zygopin import verdicts
 from zygopin.branch import Branch, branch_axis
+from zygopin.clearance import branch_clearance
 from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.foot import Finger, Foot
 from zygopin.grasp import Criteria, check_grasp
@@ -207,17 +208,42 @@ def test_a_finite_branch_may_be_passed_by():
     assert not assert_full_check(foot, controls, Branch(**place)).feasible.any()
 
 
-def test_only_what_meets_the_branch_is_checked_in_full(monkeypatch):
-    checked = []
+def test_only_what_meets_the_branch_is_measured(monkeypatch):
+    measured = []
 
-    def recorded(foot, controls, branch, **options):
-        checked.append(len(controls))
-        return check_grasp(foot, controls, branch, **options)
+    def recorded(bones, radii, branch):
+        measured.append(len(bones))
+        return branch_clearance(bones, radii, branch)
 
-    monkeypatch.setattr(verdicts, "check_grasp", recorded)
+    monkeypatch.setattr(verdicts, "branch_clearance", recorded)
     controls = np.random.default_rng(3).random((5000, 14))
     grasp_verdicts(PARROT, controls, PERCH)
-    assert sum(checked) <= 25
+    assert sum(measured) <= 50
+
+
+def test_rounding_is_within_the_bound():
+    rng = np.random.default_rng(4)
+    for _ in range(20):
+        sizes = rng.integers(1, 13, rng.integers(1, 6))
+        fingers = [
+            Finger(f"toe{i}", int(k), *rng.uniform(-1, 6, 2))
+            for i, k in enumerate(sizes)
+        ]
+        omega, scale = rng.uniform(0.1, 6), 10 ** rng.uniform(-3, 3)
+        foot = Foot(rng.uniform(1.02, 2.5), omega, scale=scale, fingers=tuple(fingers))
+        axis = branch_axis(*rng.uniform(-1.5, 1.5, 2))
+        across = np.cross(axis, rng.normal(size=3))
+        centre = foot.size * across * rng.uniform(0.5, 2) / np.linalg.norm(across)
+        branch = Branch(0.4 * foot.size, centre, axis)
+        controls = rng.random((200, foot.phalanx_count))
+        cases = verdicts._Cases(foot, controls, branch, (200,), Criteria())
+        sieve, every = verdicts._Sieve(cases), slice(0, 200)
+        found = np.sqrt(sieve._squares(controls, sieve.section(every)).T, dtype=float)
+        exact = check_grasp(foot, controls, branch).clearance
+        error = found - (exact + branch.radius + foot.radii)
+        bound = sieve.slack - Criteria().metres(foot)
+        assert sieve.kind is np.float32
+        assert 0.01 * bound < np.abs(error).max() < 0.5 * bound
 
 
 def test_verdicts_cannot_be_written_and_keep_no_hold_on_the_controls():

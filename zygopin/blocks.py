@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from zygopin import checks
 
-BLOCK = 2048
+BLOCK = 4096
 """Entries worked on at once: what is in between stays in a core's cache, and threads
 have something to do between turns of the interpreter."""
 
-KEPT = 2**25 - 2**12
+KEPT = 2**22
 """Bytes that the C library is to keep for us. It gives freed memory back to the system
 above what it was seen to hand out at once, and new pages cost more than arithmetic."""
 

@@ -228,10 +228,9 @@ def _report(
     near, apart = engine.distances(bones, foot.radii, branch, finger_pairs(foot))
     contacts = classify(near, tolerance)
     pairs = _tangent_pairs(foot, contacts.tangent)
-    section, base_to_tip = (
-        _least(pairs, vectors) for vectors in (near.normal, _lines(bones))
-    )
-    decisive = section if criteria.reading == "section" else base_to_tip
+    section = _least(pairs, near.normal)
+    along = _least(pairs, base_to_tip(bones))
+    decisive = section if criteria.reading == "section" else along
     batch = near.distance.shape[:-1]
     free = ~contacts.penetrating.any(axis=-1) & (apart >= least_gap(foot, tolerance))
     return GraspReport(
@@ -250,12 +249,19 @@ def _report(
         grasping=decisive <= PARAMETER_SLACK,
         feasible=free,
         scalar_product=section,
-        scalar_product_base_to_tip=base_to_tip,
+        scalar_product_base_to_tip=along,
     )
 
 
-def _lines(bones: Floats) -> Floats:
-    """Unit vectors along bones, from base to tip, shape (…, P, 3)."""
+def base_to_tip(bones: Floats) -> Floats:
+    """Unit vectors along bones.
+
+    Args:
+        bones: Bones, shape (…, P, 2, 3).
+
+    Returns:
+        Vectors, shape (…, P, 3).
+    """
     lines = bones[..., 1, :] - bones[..., 0, :]
     return np.asarray(lines / norm(lines)[..., None])
 

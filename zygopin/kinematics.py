@@ -19,6 +19,13 @@ Controls = ArrayLike | Mapping[str, Sequence[float]]
 """Controls of all phalanges, shape (…, P), or a sequence for each finger's name."""
 
 
+Matrices = tuple[tuple[slice, NDArray[np.float64]], ...]
+"""Which phalanges, and what makes their bones of their directions, shape (6K, 2K)."""
+
+TOGETHER = 20
+"""Phalanges up to which one product for all is quicker than one for each finger."""
+
+
 def as_controls(foot: Foot, controls: Controls) -> NDArray[np.float64]:
     """Controls as one checked array.
 
@@ -114,7 +121,7 @@ def forward_kinematics(
     azimuths = as_azimuths(foot, azimuths)
     shapes = controls.shape[:-1], azimuths.shape[:-1]
     batch = checks.common_batch("controls and azimuths", *shapes)
-    flat = _bones(_flat_matrix(foot), foot, controls, threads)
+    flat = _bones(_flat_matrices(foot), foot, controls, threads)
     turn = azimuths[..., foot.finger_of_phalanx, None]
     bones = np.empty((*batch, *flat.shape[-3:]))
     np.multiply(flat[..., 0], np.cos(turn), out=bones[..., 0])
@@ -136,48 +143,63 @@ def posed_bones(
     Returns:
         Bones in the foot's frame [m], shape (…, P, 2, 3): start and end junctions.
     """
-    return _bones(_bone_matrix(foot), foot, controls, threads)
+    return _bones(_bone_matrices(foot), foot, controls, threads)
 
 
 def _bones(
-    matrix: NDArray[np.float64],
+    matrices: Matrices,
     foot: Foot,
     controls: NDArray[np.float64],
     threads: int | None,
 ) -> NDArray[np.float64]:
-    """Bones as a matrix makes them out of the phalanges' directions."""
+    """Bones as matrices make them out of the phalanges' directions."""
     bones = np.empty((*controls.shape, 2, 3))
     poses = controls.reshape(-1, foot.phalanx_count)
-    columns = bones.reshape(-1, len(matrix)).T
+    columns = bones.reshape(-1, 6 * foot.phalanx_count).T
 
-    def block(part: slice) -> None:
-        pointing = directions(foot, poses[part])
-        rows = pointing.reshape(matrix.shape[1], -1)
-        product(matrix, rows, out=columns[:, part])
+    def block(cases: slice) -> None:
+        pointing = directions(foot, poses[cases])
+        for part, matrix in matrices:
+            rows = pointing[:, part].reshape(matrix.shape[1], -1)
+            out = columns[6 * part.start : 6 * part.stop, cases]
+            product(matrix, rows, out=out)
 
     in_blocks(block, len(poses), threads)
     return bones
 
 
 @lru_cache(FEET)
-def _flat_matrix(foot: Foot) -> NDArray[np.float64]:
-    """Bones of fingers that all lie along x, shape (6P, 2P), for `directions`."""
+def _flat_matrices(foot: Foot) -> Matrices:
+    """Bones of fingers that all lie along x, for `directions`.
+
+    Of few phalanges all at once: a product more costs more than zeros do.
+    """
+    count = foot.phalanx_count
     ends = running_sum(foot) * foot.lengths
     junctions = np.stack([ends - np.diag(foot.lengths), ends], axis=1)
-    matrix = np.zeros((*junctions.shape[:2], 3, 2, foot.phalanx_count))
+    matrix = np.zeros((count, 2, 3, 2, count))
     matrix[:, :, 0, 0], matrix[:, :, 2, 1] = junctions, -junctions
-    return checks.read_only(matrix.reshape(6 * foot.phalanx_count, -1))
+    parts = list(foot.finger_slices.values()) if count > TOGETHER else [slice(0, count)]
+    return tuple((part, _alone(matrix, part)) for part in parts)
 
 
 @lru_cache(FEET)
-def _bone_matrix(foot: Foot) -> NDArray[np.float64]:
-    """Bones in the foot's frame, shape (6P, 2P): `_flat_matrix` turned about z."""
-    flat = _flat_matrix(foot).reshape(foot.phalanx_count, 2, 3, -1)
+def _bone_matrices(foot: Foot) -> Matrices:
+    """Bones in the foot's frame: `_flat_matrices` turned about z."""
     azimuth = as_azimuths(foot, None)[foot.finger_of_phalanx, None, None]
-    matrix = flat.copy()
-    matrix[:, :, 0] = flat[:, :, 0] * np.cos(azimuth)
-    matrix[:, :, 1] = flat[:, :, 0] * np.sin(azimuth)
-    return checks.read_only(matrix.reshape(6 * foot.phalanx_count, -1))
+    found = []
+    for part, flat in _flat_matrices(foot):
+        matrix = flat.reshape(part.stop - part.start, 2, 3, -1).copy()
+        matrix[:, :, 1] = matrix[:, :, 0] * np.sin(azimuth[part])
+        matrix[:, :, 0] *= np.cos(azimuth[part])
+        found.append((part, checks.read_only(matrix.reshape(flat.shape))))
+    return tuple(found)
+
+
+def _alone(matrix: NDArray[np.float64], part: slice) -> NDArray[np.float64]:
+    """The part of a matrix that is some phalanges' own, shape (6K, 2K)."""
+    own = matrix[part, :, :, :, part]
+    return checks.read_only(own.reshape(6 * len(own), -1))
 
 
 def as_azimuths(foot: Foot, azimuths: ArrayLike | None) -> NDArray[np.float64]:

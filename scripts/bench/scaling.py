@@ -74,9 +74,14 @@ def longer(rank: int) -> Foot:
 
 
 def needed(points: Sequence[Point]) -> float:
-    """Memory that each configuration took [bytes], at most, of so many measurements."""
+    """Memory that each configuration took [bytes], at most, of the largest number."""
+    most = max((p.configurations for p in points), default=0)
     return max(
-        (8 * p.phalanges + (p.result + p.peak) / p.configurations for p in points),
+        (
+            8 * p.phalanges + (p.result + p.peak) / p.configurations
+            for p in points
+            if p.configurations == most
+        ),
         default=0.0,
     )
 
