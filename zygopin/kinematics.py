@@ -22,7 +22,7 @@ Controls = ArrayLike | Mapping[str, Sequence[float]]
 Matrices = tuple[tuple[slice, NDArray[np.float64]], ...]
 """Which phalanges, and what makes their bones of their directions, shape (6K, 2K)."""
 
-TOGETHER = 20
+TOGETHER = 24
 """Phalanges up to which one product for all is quicker than one for each finger."""
 
 

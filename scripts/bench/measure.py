@@ -44,7 +44,7 @@ class Sizes:
         compiling: 1 if Pinocchio's loop in C++ may be compiled, else 0.
     """
 
-    configurations: int = 40_960
+    configurations: int = 163_840
     runs: int = 9
     calls: int = 5
     most: int = 10_000_000
