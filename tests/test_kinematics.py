@@ -190,6 +190,12 @@ def test_controls_and_azimuths_broadcast():
     assert same(bones[3, 2], one)
 
 
+def test_masked_controls_are_read_as_what_they_hold():
+    hidden = np.ma.array([2.0] + [0.0] * 13, mask=[True] + [False] * 13)
+    with pytest.raises(ParameterError, match=r"controls\[0\] = 2.0"):
+        forward_kinematics(PARROT, hidden)
+
+
 def test_azimuths_place_the_fingers():
     foot = PARROT
     fingers = tuple(

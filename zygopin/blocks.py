@@ -103,4 +103,6 @@ def _do(work: Callable[[slice], object], blocks: Iterable[slice]) -> None:
 
 def _cores() -> int:
     """Cores that this process may use."""
-    return len(os.sched_getaffinity(0))
+    if hasattr(os, "sched_getaffinity"):  # where a process may be kept to some
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1

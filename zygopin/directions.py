@@ -21,7 +21,7 @@ SERIAL = 2**18
 threads would wait for ours."""
 
 FEET = 64
-"""Feet whose matrices are kept: tens of kilobytes each at most."""
+"""Feet whose matrices are kept: tens of kilobytes each, of odd ones some hundreds."""
 
 
 def directions(foot: Foot, controls: Floats) -> Floats:

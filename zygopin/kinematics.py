@@ -58,7 +58,7 @@ def read_controls(foot: Foot, controls: Controls) -> NDArray[np.float64]:
         ParameterError: A value is outside [0, 1], or the length is wrong.
         UnknownNameError: A finger does not exist.
     """
-    if isinstance(controls, np.ndarray) and _fine(foot, controls):
+    if type(controls) is np.ndarray and _fine(foot, controls):
         return controls
     if isinstance(controls, Mapping):
         controls = _joined(foot, controls)
