@@ -190,6 +190,30 @@ def test_controls_and_azimuths_broadcast():
     assert same(bones[3, 2], one)
 
 
+@pytest.mark.parametrize("azimuths", [None, [0, 0.1, 0.2, 0.3]])
+def test_bones_may_be_written_to_an_array_there_is(azimuths):
+    controls = np.random.default_rng(4).random((2, 5, 14))
+    out = np.full((2, 5, 14, 2, 3), np.nan)
+    found = forward_kinematics(PARROT, controls, azimuths=azimuths, out=out)
+    assert found is out
+    assert (out == forward_kinematics(PARROT, controls, azimuths=azimuths)).all()
+
+
+@pytest.mark.parametrize(
+    ("out", "words"),
+    [
+        (np.empty((14, 2, 3)), r"out.shape = \(14, 2, 3\).*\(5, 14, 2, 3\)"),
+        (np.empty((5, 14, 2, 3), np.float32), r"out = float32.*float64, in C order"),
+        (np.empty((5, 14, 2, 3), order="F"), "in C order"),
+        (np.broadcast_to(0.0, (5, 14, 2, 3)), "writeable"),
+        ([[0.0]], "ndarray"),
+    ],
+)
+def test_an_array_that_cannot_be_written_to_is_refused(out, words):
+    with pytest.raises(ParameterError, match=words):
+        forward_kinematics(PARROT, np.zeros((5, 14)), out=out)
+
+
 def test_masked_controls_are_read_as_what_they_hold():
     hidden = np.ma.array([2.0] + [0.0] * 13, mask=[True] + [False] * 13)
     with pytest.raises(ParameterError, match=r"controls\[0\] = 2.0"):

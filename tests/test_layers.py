@@ -42,6 +42,7 @@ LAYERS = (
     "shipped",
     "description",
     "directions",
+    "bones",
     "kinematics",
     "projection",
     "branch_grid",

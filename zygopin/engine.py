@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin import clearance
+from zygopin.bones import posed_bones
 from zygopin.branch import Branch
 from zygopin.clearance import Clearance, Floats
 from zygopin.errors import UnknownNameError
 from zygopin.foot import Foot
-from zygopin.kinematics import posed_bones
 
 EngineName = Literal["exact", "fcl"]
 

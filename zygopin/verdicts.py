@@ -13,6 +13,7 @@ import numpy as np
 
 from zygopin import checks
 from zygopin.blocks import Part, entries, in_blocks
+from zygopin.bones import posed_bones
 from zygopin.branch import Branch
 from zygopin.clearance import branch_clearance
 from zygopin.directions import Floats, pitch_matrix, product, running_sum
@@ -27,7 +28,7 @@ from zygopin.grasp import (
     fingers_apart,
     least_product,
 )
-from zygopin.kinematics import Controls, as_azimuths, posed_bones, read_controls
+from zygopin.kinematics import Controls, as_azimuths, read_controls
 
 ROUNDING = 16
 """Rounding of a distance to the axis, in units of the last place of the lengths it is

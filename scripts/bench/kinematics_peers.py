@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
+
 from bench import forward_ways as ways
 from bench.peer import Peer, cores
 from bench.pinocchio_loop import why_not
@@ -26,6 +28,12 @@ def closed_form(threads: int | None) -> Callable[[Posing], Forward]:
     )
 
 
+def reused(job: Posing) -> Forward:
+    """Zygopin's own, written to one array again and again."""
+    room = np.empty((len(job.controls), job.foot.phalanx_count, 2, 3))
+    return lambda: forward_kinematics(job.foot, job.controls, out=room)
+
+
 OWN: tuple[Poser, ...] = (
     Poser(
         "zygopin, forward_kinematics",
@@ -37,6 +45,12 @@ OWN: tuple[Poser, ...] = (
         "zygopin, forward_kinematics, one thread",
         "the same on one thread",
         closed_form(1),
+    ),
+    Poser(
+        "zygopin, forward_kinematics, memory reused",
+        "the same on all cores, written to one array again and again",
+        reused,
+        threads=cores(),
     ),
 )
 """Zygopin's own; the first is what all others are held against."""
