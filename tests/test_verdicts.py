@@ -26,6 +26,12 @@ PERCH = Branch(0.008, (0, 0, -0.0097))
 VERDICTS = ("stable", "grasping", "feasible")
 
 
+@pytest.fixture(autouse=True)
+def sieve_always(monkeypatch):
+    """Few cases go through the sieve as well."""
+    monkeypatch.setattr(verdicts, "FEW", 0)
+
+
 def assert_full_check(foot, controls, branch, criteria=None, threads=None):
     """The verdicts are those of `check_grasp`; they are returned."""
     found = grasp_verdicts(foot, controls, branch, criteria=criteria, threads=threads)
@@ -179,6 +185,18 @@ def test_controls_and_branches_broadcast():
     single = assert_full_check(PARROT, controls[0, 0], PERCH)
     assert single.stable.shape == ()
     assert grasp_verdicts(PARROT, np.empty((0, 14)), PERCH).stable.shape == (0,)
+
+
+def test_few_cases_are_measured_at_once(monkeypatch):
+    plan = plan_perch(PARROT, PERCH)
+    controls = np.stack([plan.controls, np.zeros(14), np.full(14, 0.5)])
+    monkeypatch.setattr(verdicts, "FEW", 3)
+    monkeypatch.setattr(verdicts, "_Sieve", None)
+    assert assert_full_check(PARROT, controls, PERCH).grasping.tolist() == [
+        True,
+        False,
+        False,
+    ]
 
 
 def test_controls_may_be_given_by_finger():

@@ -39,6 +39,9 @@ BROAD = 1e-3
 precision, which takes half the time, is used below."""
 
 
+FEW = 16
+"""Cases up to which the sieve costs more than it saves."""
+
 MEASURED = 1024
 """Cases in which all is measured at once: ten times the numbers of the sieve."""
 
@@ -91,13 +94,7 @@ def grasp_verdicts(
     batch = checks.common_batch("controls and branch", *shapes)
     count = int(np.prod(batch, dtype=int))
     cases = _Cases(foot, values, branch, batch, criteria or Criteria())
-    touched, entered = np.empty((2, count), dtype=bool)
-    sieve = _Sieve(cases)
-
-    def sift(part: slice) -> None:
-        touched[part], entered[part] = sieve.met(part)
-
-    in_blocks(sift, count, threads)
+    touched, entered = _sifted(cases, count, threads)
     free = np.flatnonzero(~(touched | entered))
     if branch.length is not None:
         touched |= entered  # what enters the infinite branch may pass by this one
@@ -110,9 +107,25 @@ def grasp_verdicts(
     def compare(part: slice) -> None:
         found[2, free[part]] = cases.apart(free[part])
 
-    in_blocks(check, len(met), threads, size=MEASURED)
-    in_blocks(compare, len(free), threads, size=MEASURED)
+    for settle, some in ((check, met), (compare, free)):
+        if len(some):
+            in_blocks(settle, len(some), threads, size=MEASURED)
     return GraspVerdicts(*found.reshape(3, *batch))
+
+
+def _sifted(
+    cases: _Cases, count: int, threads: int | None
+) -> tuple[Booleans, Booleans]:
+    """Which cases may touch the infinite branch, and which enter it for certain."""
+    touched, entered = np.ones(count, dtype=bool), np.zeros(count, dtype=bool)
+    if count > FEW:
+        sieve = _Sieve(cases)
+
+        def sift(part: slice) -> None:
+            touched[part], entered[part] = sieve.met(part)
+
+        in_blocks(sift, count, threads)
+    return touched, entered
 
 
 @dataclass(frozen=True, eq=False)
