@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from zygopin import Branch, check_grasp
-from zygopin.grasp import least_product
+from zygopin.contact_products import least_product
 from zygopin.kinematics import forward_kinematics
 from zygopin.witnesses import palmar
 

@@ -17,7 +17,7 @@ from zygopin import (
 )
 from zygopin.atlas import ROWS, VERDICTS
 from zygopin.atlas_parts import share_poses
-from zygopin.grasp import least_product
+from zygopin.contact_products import least_product
 from zygopin.witnesses import opposing, palmar, touched
 
 PARROT = Foot.preset("parrot")

@@ -71,6 +71,7 @@ LAYERS = (
     "collision",
     "engine",
     "solid_clearance",
+    "contact_products",
     "grasp",
     "verdicts",
     "placement",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from typing import Any, Literal, NamedTuple
@@ -14,6 +13,7 @@ from zygopin import checks
 from zygopin.blocks import entries
 from zygopin.branch import Branch, check_base
 from zygopin.clearance import Clearance, Floats, least_skin_distance, norm
+from zygopin.contact_products import least_over, tangent_pairs
 from zygopin.directions import FEET
 from zygopin.engine import Engine, EngineName, make_engine
 from zygopin.errors import ParameterError, UnknownNameError
@@ -227,9 +227,9 @@ def _report(
     bones = engine.bones(controls)
     near, apart = engine.distances(bones, foot.radii, branch, finger_pairs(foot))
     contacts = classify(near, tolerance)
-    pairs = _tangent_pairs(foot, contacts.tangent)
-    section = _least(pairs, near.normal)
-    along = _least(pairs, base_to_tip(bones))
+    pairs = tangent_pairs(foot, contacts.tangent)
+    section = least_over(pairs, near.normal)
+    along = least_over(pairs, base_to_tip(bones))
     decisive = section if criteria.reading == "section" else along
     batch = near.distance.shape[:-1]
     free = ~contacts.penetrating.any(axis=-1) & (apart >= least_gap(foot, tolerance))
@@ -345,73 +345,9 @@ def finger_pairs(foot: Foot) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     return checks.read_only(i[apart]), checks.read_only(j[apart])
 
 
-def least_product(foot: Foot, vectors: Floats, tangent: Booleans) -> Floats:
-    """Least scalar product over tangent phalanges of opposable fingers.
-
-    Args:
-        foot: The foot.
-        vectors: A vector for each phalanx, shape (…, P, 3).
-        tangent: Which phalanges are tangent, shape (…, P).
-
-    Returns:
-        The least products, shape (…); NaN without such a pair.
-    """
-    return _least(_tangent_pairs(foot, tangent), vectors)
-
-
-class _Pairs(NamedTuple):
-    """Pairs of phalanges of opposable fingers, for poses that are tangent with both.
-
-    Attributes:
-        batch: Shape of the batch.
-        pose: Numbers in the batch of the m poses with such a pair, shape (m,).
-        tangent: Whether they are tangent with both of a pair, shape (m, M).
-        first: The one phalanx of each pair, shape (M,).
-        second: The other phalanx, shape (M,).
-    """
-
-    batch: tuple[int, ...]
-    pose: NDArray[np.intp]
-    tangent: Booleans
-    first: NDArray[np.intp]
-    second: NDArray[np.intp]
-
-
-def _tangent_pairs(foot: Foot, tangent: Booleans) -> _Pairs:
-    """The pairs among phalanges that are tangent, shape (…, P)."""
-    i, j = _opposed(foot)
-    flat = tangent.reshape(-1, tangent.shape[-1])
-    both = flat[:, i] & flat[:, j]
-    pose = np.flatnonzero(both.any(axis=1))
-    return _Pairs(tangent.shape[:-1], pose, both[pose], i, j)
-
-
-def _least(pairs: _Pairs, vectors: Floats) -> Floats:
-    """Least product over each pose's pairs, of vectors (…, P, 3); NaN without one."""
-    least = np.full(math.prod(pairs.batch), np.nan)
-    if len(pairs.pose):
-        vectors = _wide(vectors, (*pairs.batch, *vectors.shape[-2:]))
-        some = vectors.reshape(-1, *vectors.shape[-2:])[pairs.pose]
-        # All products at once: cheaper than to gather the vectors of each pair first.
-        products = (some @ some.swapaxes(-1, -2))[:, pairs.first, pairs.second]
-        least[pairs.pose] = np.where(pairs.tangent, products, np.inf).min(axis=1)
-    return least.reshape(pairs.batch)
-
-
 def _wide(values: Floats, shape: tuple[int, ...]) -> Floats:
     """Values broadcast to a shape, which they mostly have."""
     return values if values.shape == shape else np.broadcast_to(values, shape)
-
-
-@lru_cache(FEET)
-def _opposed(foot: Foot) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Pairs of phalanges of opposable fingers: indices of the first and the second."""
-    finger = foot.finger_of_phalanx
-    opposed = np.zeros((foot.phalanx_count,) * 2, dtype=bool)
-    for one, other in foot.opposable_pairs:
-        opposed |= (finger[:, None] == one) & (finger == other)
-    i, j = np.nonzero(opposed)
-    return checks.read_only(i), checks.read_only(j)
 
 
 def _joined(

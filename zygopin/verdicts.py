@@ -16,6 +16,7 @@ from zygopin.blocks import Part, entries, in_blocks
 from zygopin.bones import posed_bones
 from zygopin.branch import Branch
 from zygopin.clearance import branch_clearance
+from zygopin.contact_products import least_product
 from zygopin.directions import Floats, pitch_matrix, product, running_sum
 from zygopin.foot import Foot
 from zygopin.grasp import (
@@ -26,7 +27,6 @@ from zygopin.grasp import (
     check_branch,
     classify,
     fingers_apart,
-    least_product,
 )
 from zygopin.kinematics import Controls, as_azimuths, read_controls
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from zygopin.branch_grid import BranchGrid
 from zygopin.clearance import dot
+from zygopin.contact_products import least_product
 from zygopin.engine import Engine
 from zygopin.foot import Foot
 from zygopin.grasp import (
@@ -16,7 +17,6 @@ from zygopin.grasp import (
     Criteria,
     GraspReport,
     check_grasp,
-    least_product,
 )
 from zygopin.projection import BACK, PALM
 
