@@ -68,6 +68,7 @@ LAYERS = (
     "validation",
     "clearance",
     "polytope",
+    "fcl_solids",
     "collision",
     "engine",
     "solid_clearance",

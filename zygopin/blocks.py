@@ -61,7 +61,7 @@ def in_blocks(
     if threads <= 1:
         _do(work, blocks)
         return
-    from concurrent.futures import ThreadPoolExecutor  # a tenth of a cold start
+    from concurrent.futures import ThreadPoolExecutor  # 10 ms, once
 
     with ThreadPoolExecutor(threads) as pool:
         shares = [blocks[i::threads] for i in range(threads)]

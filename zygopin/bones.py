@@ -18,7 +18,7 @@ from zygopin.foot import Foot
 Matrices = tuple[tuple[slice, Floats], ...]
 """Which phalanges, and what makes their bones of their directions, shape (6K, 2K)."""
 
-TOGETHER = 24
+TOGETHER = 32
 """Phalanges up to which one product for all is quicker than one for each finger."""
 
 

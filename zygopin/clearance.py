@@ -361,7 +361,7 @@ def _solid_distance(pose: _Relative, t: Floats) -> tuple[Floats, Floats, Any]:
 
 
 def _within(t: Floats) -> Floats:
-    """Parameters clamped to the bone: a quarter of `np.clip`'s time for a few."""
+    """Parameters clamped to the bone: half of `np.clip`'s time for a few."""
     return np.asarray(np.minimum(np.maximum(t, 0.0), 1.0))
 
 

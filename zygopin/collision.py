@@ -7,7 +7,6 @@ of the foot, since FCL's tolerances are absolute; normals come from nearest poin
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, fields
 
 import fcl
@@ -16,7 +15,15 @@ from numpy.typing import NDArray
 
 from zygopin.branch import Branch
 from zygopin.clearance import Clearance, Floats, Nearest, dot, norm
-from zygopin.obstacle import Capsule, ConvexMesh, Solid, Sphere
+from zygopin.fcl_solids import (
+    Solids,
+    capsules,
+    cored,
+    nearest_points,
+    placed,
+    quaternions,
+)
+from zygopin.obstacle import Solid
 
 REACH = 2.0
 """Half-length of the capsule that stands for a branch, in units of the foot's
@@ -35,8 +42,6 @@ of FCL's normals on a capped cylinder."""
 
 CLAMPED = 1e-9
 """How near to 0 or 1 rounding leaves the t of a nearest point at a bone's end."""
-
-Solids = Sequence[fcl.CollisionObject]
 
 
 def distances(
@@ -93,9 +98,9 @@ def solid_nearest(bones: Floats, solid: Solid) -> Nearest:
     origin = bones[0, 0] if len(bones) else np.zeros(3)
     unit = _unit(bones - origin)
     local = (bones - origin) / unit
-    bare = _capsules(local, np.zeros(len(local)))
-    other, middle, radius = _solid(solid, origin, unit)
-    gap, near, far = _nearest(bare, [other] * len(bare), signed=radius == 0)
+    bare = capsules(local, np.zeros(len(local)))
+    other, middle, radius = cored(solid, origin, unit)
+    gap, near, far = nearest_points(bare, [other] * len(bare), signed=radius == 0)
     t, core = _core(local, near)
     apart = (np.abs(gap) > COINCIDENT)[:, None]
     vectors = np.where(apart, np.sign(gap)[:, None] * (near - far), core - middle)
@@ -143,7 +148,7 @@ class _Toes:
         unit = _unit(bones)
         bones, skin = bones / unit, radii / unit
         flat = bones.reshape(-1, 2, 3)
-        solids = _capsules(flat, np.resize(skin, len(flat)))
+        solids = capsules(flat, np.resize(skin, len(flat)))
         return cls(unit, bones, skin, solids)
 
 
@@ -252,9 +257,9 @@ def _at_side(phalanges: Solids, rows: _Rows, share: int) -> Clearance:
         share: So many rows after one another have the same branch.
     """
     some = rows.select(slice(None, None, share))
-    slims = _capsules(some.stem(), SHRUNK * some.radius)
+    slims = capsules(some.stem(), SHRUNK * some.radius)
     each = [solid for solid in slims for _ in range(share)]
-    gap, near, far = _nearest(phalanges, each, signed=False)
+    gap, near, far = nearest_points(phalanges, each, signed=False)
     # Between capsules FCL's distance is exact, overlapping or not.
     distance = gap - (1 - SHRUNK) * rows.radius
     t, core = _core(rows.bone, near)
@@ -268,99 +273,15 @@ def _at_side(phalanges: Solids, rows: _Rows, share: int) -> Clearance:
 
 def _at_end(rows: _Rows) -> Clearance:
     """Nearest points on the capped cylinders: bare bones, so that gaps stay open."""
-    bare = _capsules(rows.bone, np.zeros_like(rows.skin))
-    frames = _quaternions(rows.axis)
+    bare = capsules(rows.bone, np.zeros_like(rows.skin))
+    frames = quaternions(rows.axis)
     shapes = map(fcl.Cylinder, rows.radius, 2 * rows.half)
-    solids = [*map(_placed, shapes, frames, rows.centre)]
-    gap, near, far = _nearest(bare, solids, signed=True)
+    solids = [*map(placed, shapes, frames, rows.centre)]
+    gap, near, far = nearest_points(bare, solids, signed=True)
     normal = _direction(near - far, gap, rows)
     t, _ = _core(rows.bone, near)
     lateral = np.abs(dot(normal, rows.axis)) < SIDEWAYS
     return Clearance(gap - rows.skin, t, far, normal, lateral)
-
-
-def _capsules(bones: Floats, radii: Floats) -> list[fcl.CollisionObject]:
-    """Bones with skins of given radii, (n, 2, 3) and (n,)."""
-    lines = bones[:, 1] - bones[:, 0]
-    lengths = norm(lines)
-    frames = _quaternions(lines / lengths[:, None])
-    return [*map(_placed, map(fcl.Capsule, radii, lengths), frames, bones.mean(1))]
-
-
-def _solid(
-    solid: Solid, origin: Floats, unit: float
-) -> tuple[fcl.CollisionObject, Floats, float]:
-    """A solid, or its core, seen from a place; its middle, and the core's radius."""
-    straight = np.array([1.0, 0.0, 0.0, 0.0])
-    if isinstance(solid, ConvexMesh):
-        vertices = (solid.vertices - origin) / unit
-        count = len(solid.triangles)
-        faces = np.insert(solid.triangles, 0, 3, axis=1).ravel()
-        hull = fcl.Convex(vertices, count, faces)
-        middle = vertices.mean(axis=0)
-        return _placed(hull, straight, np.zeros(3)), middle, 0.0
-    if isinstance(solid, Capsule):
-        ends = (solid.ends - origin) / unit
-        core = _capsules(ends[None], np.zeros(1))[0]
-        return core, ends.mean(axis=0), solid.radius / unit
-    centre = (solid.centre - origin) / unit
-    if isinstance(solid, Sphere):
-        point = fcl.Capsule(0.0, 0.0)
-        return _placed(point, straight, centre), centre, solid.radius / unit
-    box = fcl.CollisionObject(fcl.Box(*(solid.size / unit)))
-    box.setRotation(solid.rotation)
-    box.setTranslation(centre)
-    return box, centre, 0.0
-
-
-def _placed(shape: object, frame: Floats, centre: Floats) -> fcl.CollisionObject:
-    """A shape in its place; setters cost half of what a Transform does."""
-    solid = fcl.CollisionObject(shape)
-    solid.setQuatRotation(frame)
-    solid.setTranslation(centre)
-    return solid
-
-
-def _nearest(
-    first: Solids, second: Solids, *, signed: bool
-) -> tuple[Floats, Floats, Floats]:
-    """Distances of pairs of solids and the nearest points of both.
-
-    Where solids overlap and a sign is wanted, the depth is that of a contact: FCL's
-    own signed distance is wrong at a touch and ends the process for thin boxes.
-    """
-    request = fcl.DistanceRequest(True)
-    table = np.empty((len(first), 7))
-    for row, one, other in zip(table, first, second, strict=True):
-        result = fcl.DistanceResult()
-        row[0] = fcl.distance(one, other, request, result)
-        row[1:4], row[4:7] = result.nearest_points
-        if signed and row[0] <= 0:
-            row[:] = _contact(one, other, row)
-    return table[:, 0], table[:, 1:4], table[:, 4:7]
-
-
-def _contact(
-    one: fcl.CollisionObject, other: fcl.CollisionObject, row: Floats
-) -> Floats:
-    """Minus the depth of an overlap and the deepest points of both, shape (7,)."""
-    result = fcl.CollisionResult()
-    request = fcl.CollisionRequest(num_max_contacts=1, enable_contact=True)
-    if not fcl.collide(one, other, request, result):
-        return np.concatenate([[0.0], row[1:]])
-    contact = result.contacts[0]
-    middle, depth = np.asarray(contact.pos), contact.penetration_depth
-    half = depth / 2 * np.asarray(contact.normal)
-    return np.concatenate([[-depth], middle + half, middle - half])
-
-
-def _quaternions(directions: Floats) -> Floats:
-    """Rotations (w, x, y, z) that take the z axis to unit directions, (n, 4)."""
-    x, y, z = directions.T
-    # Two forms of one rotation, each far from its own singular direction.
-    up = z >= 0
-    turn = np.array([np.where(up, 1 + z, x), -y * up, np.where(up, x, 1 - z), y * ~up])
-    return np.asarray((turn / np.sqrt(2 * (1 + np.abs(z)))).T)
 
 
 def _core(bones: Floats, points: Floats) -> tuple[Floats, Floats]:
