@@ -180,6 +180,8 @@ LAYERS = (
     "atlas_output",
     "design_output",
     "sweep_output",
+    "paper.entry",
+    "paper.finger_model",
     "options",
     "option_types",
     "given_controls",
@@ -197,25 +199,34 @@ LAYERS = (
 )
 """From parameters to the command line; `__init__` re-exports and stands outside."""
 
+FOLDERS = ("zygopin", "zygopin.paper")
+PLAIN = {name.split(".")[0] for name in LAYERS}
+
 
 def imported(module: str) -> set[str]:
     """Modules of the package that a module imports, anywhere in its text."""
-    tree = ast.parse((PACKAGE / f"{module}.py").read_text(encoding="utf-8"))
+    path = PACKAGE.joinpath(*module.split(".")).with_suffix(".py")
+    tree = ast.parse(path.read_text(encoding="utf-8"))
     found = set()
     for node in ast.walk(tree):
-        if isinstance(node, ast.ImportFrom) and node.module == "zygopin":
-            found.update(alias.name for alias in node.names)
+        if isinstance(node, ast.ImportFrom) and node.module in FOLDERS:
+            head = f"{node.module}.".removeprefix("zygopin.")
+            found.update(f"{head}{alias.name}" for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module:
-            head, _, tail = node.module.partition(".")
-            found.update({tail.split(".")[0]} if head == "zygopin" else ())
+            found.add(node.module)
         elif isinstance(node, ast.Import):
-            names = (alias.name.split(".") for alias in node.names)
-            found.update(name[1] for name in names if name[0] == "zygopin" and name[1:])
-    return found
+            found.update(alias.name for alias in node.names)
+    ours = (name.removeprefix("zygopin.") for name in found)
+    return {name for name in ours if name.split(".")[0] in PLAIN}
 
 
 def test_every_module_has_its_layer():
-    modules = {path.stem for path in PACKAGE.glob("*.py")} - {"__init__"}
+    paths = (path.relative_to(PACKAGE) for path in PACKAGE.rglob("*.py"))
+    modules = {
+        ".".join(path.with_suffix("").parts)
+        for path in paths
+        if path.stem != "__init__"
+    }
     assert modules == set(LAYERS)
 
 

@@ -1,0 +1,1 @@
+"""The paper recomputed: its figures, its statements, and where its print slips."""
