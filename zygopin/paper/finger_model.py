@@ -1,19 +1,22 @@
-"""The paper's sections 2 and 3: one finger as a control system on the plane."""
+"""The paper's section 3: one finger as a control system on the complex plane."""
 
 from __future__ import annotations
 
 import math
+from functools import partial
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin.foot import Foot
+from zygopin.foot import GOLDEN_MEAN, Foot
 from zygopin.kinematics import forward_kinematics
 from zygopin.model import FootModel
 from zygopin.paper.entry import (
     BY_HAND,
     ROUNDING,
     Entry,
+    Exhibit,
     Measurement,
     at_most,
     equal,
@@ -25,8 +28,61 @@ EXACT = 1e-12
 RANDOM = 1000
 """Random control sequences on which two routes are held against each other."""
 
-FINGER = "finger3"
-"""The finger whose reachability the paper discusses."""
+SHOWN = (0.3, 0.3, 1.0)
+"""Controls of the finger that shows the notation: its last one is 1."""
+
+FINGER = 2
+"""Index of finger 3, whose reachability the paper discusses."""
+
+Complexes = NDArray[np.complex128]
+Floats = NDArray[np.float64]
+
+
+def figure_1() -> Entry:
+    """Figure 1: a phalanx turned by ω against the one before.
+
+    Returns:
+        The entry.
+    """
+    foot = Foot.preset("paper")
+    toe = np.append(0, junctions(foot, np.array(SHOWN)))
+    before, after = np.diff(toe)[1:]
+    turn = float(-np.angle(after / before))
+    words = r"turn of phalanx $k+1$ against phalanx $k$, $v_{k+1} = 1$"
+    inner = r"angle at $x_k$ between the two phalanges, $\pi-\omega$"
+    return Entry(
+        key="figure-1",
+        kind="figure",
+        title="Junctions and controls",
+        place="section 3, figure 1",
+        printed=r"phalanx $k+1$, with $v_{k+1}=1$, turned by $\omega$ against phalanx "
+        r"$k$",
+        ours="",
+        finding=(
+            r"A control $v$ turns its phalanx by $\omega v$ against the one before, "
+            r"down toward the palm: the angle between the two is in $[\pi-\omega, "
+            r"\pi]$."
+        ),
+        measurements=(
+            Measurement("turn", words, turn, equal(math.pi / 6, EXACT, BY_HAND), "rad"),
+            Measurement(
+                "inner_angle",
+                inner,
+                float(abs(np.angle(-after / before))),
+                equal(5 * math.pi / 6, EXACT, BY_HAND),
+                "rad",
+            ),
+        ),
+        figures=(
+            Exhibit(
+                "figure-1.png",
+                r"A finger with $\rho$ the golden mean and $\omega = \pi/6$. The "
+                r"broken line goes on straight; $v_{k+1} = 1$ turns phalanx $k+1$ from "
+                r"there by $\omega$.",
+                partial(_draw_notation, toe, foot.omega),
+            ),
+        ),
+    )
 
 
 def control_system() -> Entry:
@@ -36,93 +92,100 @@ def control_system() -> Entry:
         The entry.
     """
     foot = Foot.preset("paper")
-    closed = _plane(foot, forward_kinematics(foot, np.ones(foot.phalanx_count)))
     controls = np.random.default_rng(0).uniform(size=(RANDOM, foot.phalanx_count))
     bones = forward_kinematics(foot, controls)
-    apart = float(np.abs(bones - FootModel(foot).forward(controls)).max())
-    summed = np.abs(_plane(foot, bones) - _by_definition(foot, controls)).max()
-    bends = _bends(_plane(foot, bones))
-    tip = closed[-1]
+    summed = junctions(foot, controls[:, foot.finger_slices["finger3"]])
+    apart = {
+        "by_definition": np.abs(in_plane(foot, bones) - summed).max(),
+        "pinocchio": np.abs(bones - FootModel(foot).forward(controls)).max(),
+    }
+    words = {
+        "by_definition": f"the system summed step by step, {RANDOM} random sequences",
+        "pinocchio": "the URDF in Pinocchio, all 14 phalanges",
+    }
     return Entry(
         key="control-system",
         kind="statement",
         title="The control system",
         place="section 3, system (1)",
-        printed=r"$x_k = x_{k-1} + \rho^{-k}\,e^{-i\omega(v_0+\dots+v_k)}$, $x_0 = 0$",
+        printed=r"$x_k = x_{k-1} + \rho^{-k} e^{-i\omega(v_0+\dots+v_k)}$, $x_0 = 0$",
         ours="",
         finding=(
-            "Three routes give the same junctions: the system summed term by term, "
-            "the closed form of forward_kinematics, and Pinocchio on the URDF."
+            "Three routes give the same junctions: the recursion, the closed form of "
+            "forward_kinematics, and Pinocchio, which reads the URDF."
         ),
         measurements=(
-            Measurement(
-                "x4_re",
-                r"$\Re x_4$ of finger 3, all controls 1",
-                float(tip.real),
-                equal(
-                    math.sqrt(3) / 2 * _POWER[1] + (_POWER[2] - _POWER[4]) / 2,
-                    EXACT,
-                    BY_HAND,
-                ),
-            ),
-            Measurement(
-                "x4_im",
-                r"$\Im x_4$ of finger 3, all controls 1",
-                float(tip.imag),
-                equal(
-                    -_POWER[1] / 2
-                    - math.sqrt(3) / 2 * (_POWER[2] + _POWER[4])
-                    - _POWER[3],
-                    EXACT,
-                    BY_HAND,
-                ),
-            ),
-            Measurement(
-                "by_definition",
-                f"largest distance to the sum, {RANDOM} random control sequences",
-                float(summed),
-                at_most(EXACT, ROUNDING),
-            ),
-            Measurement(
-                "pinocchio",
-                "largest distance to Pinocchio on the URDF, all 14 phalanges",
-                apart,
-                at_most(EXACT, ROUNDING),
-            ),
-            Measurement(
-                "largest_bend",
-                r"largest turn from one phalanx to the next, at most $\omega$",
-                float(bends.max()),
-                at_most(foot.omega, "the joints' range"),
-                unit="rad",
+            *_closed_finger(foot),
+            *(
+                Measurement(
+                    name,
+                    f"largest distance of a junction to {words[name]}",
+                    float(apart[name]),
+                    at_most(EXACT, ROUNDING),
+                )
+                for name in words
             ),
         ),
     )
 
 
-_POWER = [Foot.preset("paper").rho ** -k for k in range(5)]
-"""Powers ρ^−k of the golden mean."""
+def in_plane(foot: Foot, bones: Floats) -> Complexes:
+    """Junctions of finger 3 in its own plane.
 
+    Args:
+        foot: The foot.
+        bones: Bones of all phalanges, shape (…, P, 2, 3).
 
-def _plane(foot: Foot, bones: NDArray[np.float64]) -> NDArray[np.complex128]:
-    """Junctions x₁ to x_K of finger 3 in its plane, shape (…, K)."""
-    finger = foot.fingers[2]
-    ends = bones[..., foot.finger_slices[FINGER], 1, :]
+    Returns:
+        x₁ to x_K as x + iz, shape (…, K).
+    """
+    finger = foot.fingers[FINGER]
+    ends = bones[..., foot.finger_slices[finger.name], 1, :]
     ahead = np.array([math.cos(finger.azimuth), math.sin(finger.azimuth), 0.0])
     return np.asarray(ends @ ahead + 1j * ends[..., 2])
 
 
-def _by_definition(foot: Foot, controls: NDArray[np.float64]) -> NDArray[np.complex128]:
-    """The same by the recursion, step by step."""
-    steps, place, turn = [], 0j, 0.0
-    for k, column in enumerate(controls[:, foot.finger_slices[FINGER]].T, 1):
-        turn = turn + column
+def junctions(foot: Foot, controls: Floats) -> Complexes:
+    """The system (1) step by step, as it is printed; v₀ = 0.
+
+    Args:
+        foot: The foot: its ρ and ω count.
+        controls: v₁ to v_K, shape (…, K).
+
+    Returns:
+        x₁ to x_K, shape (…, K).
+    """
+    place = np.zeros(controls.shape[:-1], complex)
+    turn, places = np.zeros(controls.shape[:-1]), []
+    for k in range(1, controls.shape[-1] + 1):
+        turn = turn + controls[..., k - 1]
         place = place + foot.rho**-k * np.exp(-1j * foot.omega * turn)
-        steps.append(place)
-    return np.stack(steps, axis=-1)
+        places.append(place)
+    return np.stack(places, axis=-1)
 
 
-def _bends(junctions: NDArray[np.complex128]) -> NDArray[np.float64]:
-    """Turns from each phalanx to the next, downward positive [rad]."""
-    steps = np.diff(junctions, prepend=0, axis=-1)
-    return np.asarray(-np.angle(steps[..., 1:] / steps[..., :-1]))
+def _closed_finger(foot: Foot) -> tuple[Measurement, ...]:
+    """x₄ of finger 3 with all controls 1, whose phalanges point to 30°, …, 120°."""
+    tip = in_plane(foot, forward_kinematics(foot, np.ones(foot.phalanx_count)))[-1]
+    length, height = [GOLDEN_MEAN**-k for k in range(5)], math.sqrt(3) / 2
+    by_hand = (
+        height * length[1] + (length[2] - length[4]) / 2,
+        -length[1] / 2 - height * (length[2] + length[4]) - length[3],
+    )
+    return tuple(
+        Measurement(
+            f"x4_{part.lower()}",
+            rf"$\{part} x_4$ of finger 3, all controls 1",
+            float(found),
+            equal(value, EXACT, BY_HAND),
+        )
+        for part, found, value in zip(
+            ("Re", "Im"), (tip.real, tip.imag), by_hand, strict=True
+        )
+    )
+
+
+def _draw_notation(toe: Complexes, omega: float, path: Path) -> Path:
+    from zygopin.paper.finger_drawings import draw_notation
+
+    return draw_notation(path, toe, omega)
