@@ -185,6 +185,10 @@ LAYERS = (
     "paper.finger_model",
     "paper.reachable",
     "paper.workspace",
+    "paper.report",
+    "paper.document",
+    "paper.page",
+    "paper.output",
     "options",
     "option_types",
     "given_controls",
@@ -197,6 +201,7 @@ LAYERS = (
     "cli_atlas",
     "cli_sweep",
     "cli_design",
+    "cli_paper",
     "cli",
     "__main__",
 )

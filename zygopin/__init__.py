@@ -58,6 +58,8 @@ _HOMES = {
     "model": ("FootModel",),
     "motion": ("Law", "Motion"),
     "obstacle": ("Box", "Capsule", "ConvexMesh", "Sphere"),
+    "paper.output": ("write_paper_report",),
+    "paper.report": ("PaperReport", "paper_report"),
     "paths": (
         "MJCF_PATH",
         "PACKAGE_PATH",
@@ -145,6 +147,7 @@ __all__ = [
     "Law",
     "MissingExtraError",
     "Motion",
+    "PaperReport",
     "ParameterError",
     "PerchPlan",
     "Placement",
@@ -204,6 +207,7 @@ __all__ = [
     "named_poses",
     "nearest_reachable",
     "obstacle_clearance",
+    "paper_report",
     "perch_solutions",
     "plan_perch",
     "plot_atlas",
@@ -241,6 +245,7 @@ __all__ = [
     "touching_controls",
     "validate_foot",
     "write_description",
+    "write_paper_report",
     "zygodactyl_fingers",
 ]
 

@@ -81,6 +81,9 @@ from zygopin.obstacle import Box as Box
 from zygopin.obstacle import Capsule as Capsule
 from zygopin.obstacle import ConvexMesh as ConvexMesh
 from zygopin.obstacle import Sphere as Sphere
+from zygopin.paper.output import write_paper_report as write_paper_report
+from zygopin.paper.report import PaperReport as PaperReport
+from zygopin.paper.report import paper_report as paper_report
 from zygopin.paths import MJCF_PATH as MJCF_PATH
 from zygopin.paths import PACKAGE_PATH as PACKAGE_PATH
 from zygopin.paths import PRESETS_PATH as PRESETS_PATH

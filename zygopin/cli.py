@@ -13,6 +13,7 @@ import click
 from zygopin.cli_atlas import atlas
 from zygopin.cli_branches import branches
 from zygopin.cli_design import design
+from zygopin.cli_paper import paper
 from zygopin.cli_reach import reach, validate
 from zygopin.cli_strike import strike
 from zygopin.cli_sweep import sweep
@@ -62,6 +63,7 @@ main.add_command(touch)
 main.add_command(atlas)
 main.add_command(sweep)
 main.add_command(design)
+main.add_command(paper)
 
 
 @main.command()

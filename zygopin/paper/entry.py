@@ -120,6 +120,12 @@ class Entry:
     scenes: tuple[Exhibit, ...] = ()
 
     @property
+    def label(self) -> str:
+        """Its number in the paper, such as `Proposition 1`; without one, its kind."""
+        words = self.key.replace("-", " ") if self.key[-1].isdigit() else self.kind
+        return words.capitalize()
+
+    @property
     def holds(self) -> bool:
         """Whether every number is as it must be."""
         return all(each.holds for each in self.measurements)
