@@ -237,7 +237,7 @@ def test_toes_that_cannot_close_ask_for_a_thicker_branch_or_more_omega():
 
 def test_toes_in_one_plane_run_into_each_other():
     fingers = [
-        dataclasses.replace(PARROT.fingers[i % 4], name=f"finger{i}") for i in range(12)
+        dataclasses.replace(PARROT.fingers[i % 4], name=f"finger{i}") for i in range(6)
     ]
     foot = PARROT.replace(fingers=fingers)
     text = reason(parrots_perch().branch, foot)
