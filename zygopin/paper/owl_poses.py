@@ -93,22 +93,7 @@ def figure_6() -> Entry:
             *_strikes(owl, study),
             *_maxima(study),
         ),
-        figures=(
-            Exhibit(
-                "figure-6.png",
-                "The owl's foot from above, straight toes with their skin, x up and y "
-                "to the left. Left: the zygodactyl pose. Right: toe 4 turned forward, "
-                "called isodactyl in the paper. Dashed: the hull of the talons.",
-                _draw_poses,
-            ),
-            Exhibit(
-                "figure-6-areas.png",
-                "Areas seen from above, over that of the zygodactyl pose, as toe 4 "
-                "turns: the hull of the talons, and where a ball of radius s/2 is met "
-                "by the first or by all phalanges. All are largest at 60°.",
-                _draw_areas,
-            ),
-        ),
+        figures=_pictures(),
         scenes=(
             Exhibit(
                 "figure-6.html",
@@ -117,6 +102,26 @@ def figure_6() -> Entry:
                 "contact, and the toes close around the ball and lock.",
                 _write_strike,
             ),
+        ),
+    )
+
+
+def _pictures() -> tuple[Exhibit, ...]:
+    """The two poses, and the areas between them."""
+    return (
+        Exhibit(
+            "figure-6.png",
+            "The owl's foot from above, straight toes with their skin, x up and y "
+            "to the left. Left: the zygodactyl pose. Right: toe 4 turned forward, "
+            "called isodactyl in the paper. Dashed: the hull of the talons.",
+            _draw_poses,
+        ),
+        Exhibit(
+            "figure-6-areas.png",
+            "Areas seen from above, over that of the zygodactyl pose, as toe 4 "
+            "turns: the hull of the talons, and where a ball of radius s/2 is met "
+            "by the first or by all phalanges. All are largest at 60°.",
+            _draw_areas,
         ),
     )
 
