@@ -6,7 +6,20 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import groupby
 
-from zygopin.paper import finger_model, reachable, workspace
+from zygopin.paper import (
+    back_toes,
+    convexity,
+    finger_model,
+    owl_poses,
+    planes,
+    reachable,
+    talon_path,
+    tendon_map,
+    tendon_print,
+    turning_toe,
+    whole_foot,
+    workspace,
+)
 from zygopin.paper.entry import Entry
 
 _CHAPTERS: dict[str, tuple[Callable[[], Entry], ...]] = {
@@ -18,8 +31,22 @@ _CHAPTERS: dict[str, tuple[Callable[[], Entry], ...]] = {
         reachable.erratum_5,
     ),
     "The foot": (
+        whole_foot.figure_2,
+        planes.erratum_1,
+        whole_foot.opposable_fingers,
+        back_toes.erratum_2,
+        back_toes.erratum_3,
         workspace.algorithm,
         workspace.figure_3,
+    ),
+    "The owl's foot": (
+        owl_poses.figure_6,
+        turning_toe.erratum_14,
+        talon_path.figure_7,
+        tendon_print.erratum_12,
+        tendon_map.tlm_map,
+        tendon_print.erratum_10,
+        convexity.erratum_11,
     ),
 }
 """What makes each entry, by chapter: sections 2 and 3, 4, 4.1, 5 of the paper."""
