@@ -197,6 +197,8 @@ LAYERS = (
     "paper.stability",
     "paper.zero_product",
     "paper.grasp_readings",
+    "paper.closed_toes",
+    "paper.caption_radius",
     "options",
     "option_types",
     "given_controls",
