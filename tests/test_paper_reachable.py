@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from papers import failing, value
+from entry_checks import broken, numbers
 from PIL import Image
 
 from zygopin.paper import reachable
@@ -18,21 +18,21 @@ def test_contractions_shrink_by_rho_and_forget_where_they_start():
     entry = reachable.contractions()
     assert entry.holds
     # One point of the start is the farthest from 0: its images stay in step.
-    assert value(entry, "approach") == pytest.approx(1, abs=1e-9)
+    assert numbers(entry)["approach"] == pytest.approx(1, abs=1e-9)
 
 
 def test_an_operator_that_shrinks_less_fails(monkeypatch):
     slack = lambda *given: 1.1 * hutchinson(*given)  # noqa: E731
     hutchinson = reachable.hutchinson
     monkeypatch.setattr(reachable, "hutchinson", slack)
-    assert failing(reachable.contractions()) == {"approach"}
-    assert failing(reachable.proposition_1()) == {"operator", "invariance"}
+    assert broken(reachable.contractions()) == {"approach"}
+    assert broken(reachable.proposition_1()) == {"operator", "invariance"}
 
 
 def test_both_parts_of_the_proposition_hold():
     entry = reachable.proposition_1()
     assert entry.holds
-    assert value(entry, "invariance") == pytest.approx(PHI**-17, rel=1e-9)
+    assert numbers(entry)["invariance"] == pytest.approx(PHI**-17, rel=1e-9)
 
 
 def test_v0_read_as_a_control_fails(monkeypatch):
@@ -42,17 +42,17 @@ def test_v0_read_as_a_control_fails(monkeypatch):
         return turned(rho, omega, *rest, orientation=omega * orientation)
 
     monkeypatch.setattr(reachable, "reachable_set", as_control)
-    assert failing(reachable.proposition_1()) == {"orientation"}
+    assert broken(reachable.proposition_1()) == {"orientation"}
 
 
 def test_finite_sums_are_off_the_attractor():
     entry = reachable.erratum_5()
     assert entry.holds
     # 1/φ + 1/φ² + … = φ, and 1 + 2 + 4 + 8 + 16 sums.
-    assert value(entry, "base_one_level") == pytest.approx(PHI, abs=1e-11)
-    assert value(entry, "sums_off") == 31
-    assert 1.08 < value(entry, "base_two_levels") < 1.09
-    assert 0.9 < value(entry, "base_interval") <= value(entry, "base_two_levels")
+    assert numbers(entry)["base_one_level"] == pytest.approx(PHI, abs=1e-11)
+    assert numbers(entry)["sums_off"] == 31
+    assert 1.08 < numbers(entry)["base_two_levels"] < 1.09
+    assert 0.9 < numbers(entry)["base_interval"] <= numbers(entry)["base_two_levels"]
 
 
 def test_the_sums_are_those_of_short_fingers():

@@ -16,7 +16,7 @@ from zygopin.paper.entry import Entry, Measurement, at_most
 from zygopin.paper.output import PAGE
 from zygopin.paper.report import ENTRIES, PaperReport
 
-HEAVY = TABLE | FCL | HOLD | {"matplotlib", "meshcat"}
+HEAVY = TABLE | FCL | HOLD | {"matplotlib", "meshcat", "xacro"}
 
 
 @pytest.fixture(scope="module")

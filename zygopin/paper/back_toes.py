@@ -13,8 +13,15 @@ from zygopin.finger import Finger
 from zygopin.foot import Foot
 from zygopin.kinematics import forward_kinematics
 from zygopin.model import FootModel
-from zygopin.paper.entry import Entry, Exhibit, Measurement, equal
-from zygopin.paper.measured import EXACT, by_hand, rounding
+from zygopin.paper.entry import (
+    EXACT,
+    Entry,
+    Exhibit,
+    Measurement,
+    by_hand,
+    equal,
+    rounding,
+)
 from zygopin.paper.toe_sums import (
     BACK_TOE,
     PAPER_TURN,

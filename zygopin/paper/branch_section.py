@@ -19,6 +19,7 @@ from zygopin.foot import Foot
 from zygopin.grasp import GraspReport, check_grasp
 from zygopin.paper.entry import (
     BY_HAND,
+    EXACT,
     Entry,
     Exhibit,
     Measurement,
@@ -26,7 +27,6 @@ from zygopin.paper.entry import (
     equal,
 )
 from zygopin.paper.finger_plane import (
-    EXACT,
     ITERATED,
     Complexes,
     Floats,

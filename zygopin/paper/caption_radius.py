@@ -21,6 +21,7 @@ from zygopin.paper.closed_toes import (
 )
 from zygopin.paper.entry import (
     BY_HAND,
+    EXACT,
     Entry,
     Exhibit,
     Measurement,
@@ -29,7 +30,6 @@ from zygopin.paper.entry import (
     equal,
 )
 from zygopin.paper.finger_plane import (
-    EXACT,
     ITERATED,
     PAIR,
     bark_gap,

@@ -9,8 +9,8 @@ import numpy as np
 from scipy.optimize import root
 
 from zygopin.foot import Foot
+from zygopin.paper.entry import EXACT
 from zygopin.paper.finger_plane import (
-    EXACT,
     PAIR,
     Floats,
     phalanx_lines,

@@ -9,9 +9,8 @@ import numpy as np
 
 from zygopin.foot import Foot
 from zygopin.kinematics import forward_kinematics
-from zygopin.paper.entry import ROUNDING, Entry, Measurement, at_most
+from zygopin.paper.entry import EXACT, ROUNDING, Entry, Measurement, at_most
 from zygopin.paper.finger_plane import (
-    EXACT,
     PAIR,
     PLACE,
     Floats,

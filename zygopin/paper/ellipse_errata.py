@@ -11,6 +11,7 @@ from zygopin.foot import Foot
 from zygopin.paper.branch_section import BRANCH, hits_branch, section_by_fcl
 from zygopin.paper.entry import (
     BY_HAND,
+    EXACT,
     ROUNDING,
     Entry,
     Exhibit,
@@ -20,7 +21,6 @@ from zygopin.paper.entry import (
     equal,
 )
 from zygopin.paper.finger_plane import (
-    EXACT,
     PLACE,
     bark_gap,
     in_space,

@@ -18,6 +18,9 @@ BY_HAND = "worked by hand"
 ROUNDING = "rounding"
 """Routes to a reference that several entries take."""
 
+EXACT = 1e-12
+"""Difference of two routes to a length of about one that is rounding."""
+
 
 @dataclass(frozen=True)
 class Reference:
@@ -169,3 +172,36 @@ def at_least(value: float, route: str) -> Reference:
         The reference.
     """
     return Reference("≥", value, 0.0, route)
+
+
+def by_hand(
+    name: str, words: str, value: float, expected: float, *, unit: Unit = ""
+) -> Measurement:
+    """A number that a formula worked by hand must give.
+
+    Args:
+        name: Its key among the entry's.
+        words: What it is.
+        value: The number.
+        expected: What the formula gives.
+        unit: The unit of both.
+
+    Returns:
+        The measurement.
+    """
+    return Measurement(name, words, value, equal(expected, EXACT, BY_HAND), unit)
+
+
+def rounding(name: str, words: str, value: float, *, unit: Unit = "") -> Measurement:
+    """A difference of two routes that must be rounding.
+
+    Args:
+        name: Its key among the entry's.
+        words: What it is.
+        value: The largest difference.
+        unit: Its unit.
+
+    Returns:
+        The measurement.
+    """
+    return Measurement(name, words, value, at_most(EXACT, ROUNDING), unit)

@@ -7,23 +7,13 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from zygopin.foot import GOLDEN_MEAN, Foot
 from zygopin.kinematics import forward_kinematics
 from zygopin.model import FootModel
-from zygopin.paper.entry import (
-    BY_HAND,
-    ROUNDING,
-    Entry,
-    Exhibit,
-    Measurement,
-    at_most,
-    equal,
-)
-
-EXACT = 1e-12
-"""Difference of two routes to a length of about one that is rounding."""
+from zygopin.paper.entry import Entry, Exhibit, Measurement, by_hand, rounding
+from zygopin.paper.finger_plane import Complexes, Floats, in_plane
+from zygopin.paper.toe_sums import junctions
 
 RANDOM = 1000
 """Random control sequences on which two routes are held against each other."""
@@ -31,11 +21,8 @@ RANDOM = 1000
 SHOWN = (0.3, 0.3, 1.0)
 """Controls of the finger that shows the notation: its last one is 1."""
 
-FINGER = 2
-"""Index of finger 3, whose reachability the paper discusses."""
-
-Complexes = NDArray[np.complex128]
-Floats = NDArray[np.float64]
+FINGER = "finger3"
+"""The finger whose reachability the paper discusses."""
 
 
 def figure_1() -> Entry:
@@ -45,9 +32,10 @@ def figure_1() -> Entry:
         The entry.
     """
     foot = Foot.preset("paper")
-    toe = np.append(0, junctions(foot, np.array(SHOWN)))
+    toe = summed(foot, np.array(SHOWN))
     before, after = np.diff(toe)[1:]
     turn = float(-np.angle(after / before))
+    within = float(abs(np.angle(-after / before)))
     words = r"turn of phalanx $k+1$ against phalanx $k$, $v_{k+1} = 1$"
     inner = r"angle at $x_k$ between the two phalanges, $\pi-\omega$"
     return Entry(
@@ -64,14 +52,8 @@ def figure_1() -> Entry:
             r"\pi]$."
         ),
         measurements=(
-            Measurement("turn", words, turn, equal(math.pi / 6, EXACT, BY_HAND), "rad"),
-            Measurement(
-                "inner_angle",
-                inner,
-                float(abs(np.angle(-after / before))),
-                equal(5 * math.pi / 6, EXACT, BY_HAND),
-                "rad",
-            ),
+            by_hand("turn", words, turn, math.pi / 6, unit="rad"),
+            by_hand("inner_angle", inner, within, 5 * math.pi / 6, unit="rad"),
         ),
         figures=(
             Exhibit(
@@ -94,13 +76,13 @@ def control_system() -> Entry:
     foot = Foot.preset("paper")
     controls = np.random.default_rng(0).uniform(size=(RANDOM, foot.phalanx_count))
     bones = forward_kinematics(foot, controls)
-    summed = junctions(foot, controls[:, foot.finger_slices["finger3"]])
+    sums = summed(foot, controls[:, foot.finger_slices[FINGER]])[:, 1:]
     apart = {
-        "by_definition": np.abs(in_plane(foot, bones) - summed).max(),
-        "pinocchio": np.abs(bones - FootModel(foot).forward(controls)).max(),
+        "by_definition": float(np.abs(junctions_of(foot, bones) - sums).max()),
+        "pinocchio": float(np.abs(bones - FootModel(foot).forward(controls)).max()),
     }
     words = {
-        "by_definition": f"the system summed step by step, {RANDOM} random sequences",
+        "by_definition": f"the sum taken term by term, {RANDOM} random sequences",
         "pinocchio": "the URDF in Pinocchio, all 14 phalanges",
     }
     return Entry(
@@ -111,25 +93,20 @@ def control_system() -> Entry:
         printed=r"$x_k = x_{k-1} + \rho^{-k} e^{-i\omega(v_0+\dots+v_k)}$, $x_0 = 0$",
         ours="",
         finding=(
-            "Three routes give the same junctions: the recursion, the closed form of "
+            "Three routes give the same junctions: the sum, the closed form of "
             "forward_kinematics, and Pinocchio, which reads the URDF."
         ),
         measurements=(
             *_closed_finger(foot),
             *(
-                Measurement(
-                    name,
-                    f"largest distance of a junction to {words[name]}",
-                    float(apart[name]),
-                    at_most(EXACT, ROUNDING),
-                )
-                for name in words
+                rounding(name, f"largest distance of a junction to {what}", apart[name])
+                for name, what in words.items()
             ),
         ),
     )
 
 
-def in_plane(foot: Foot, bones: Floats) -> Complexes:
+def junctions_of(foot: Foot, bones: Floats) -> Complexes:
     """Junctions of finger 3 in its own plane.
 
     Args:
@@ -139,48 +116,39 @@ def in_plane(foot: Foot, bones: Floats) -> Complexes:
     Returns:
         x₁ to x_K as x + iz, shape (…, K).
     """
-    finger = foot.fingers[FINGER]
-    ends = bones[..., foot.finger_slices[finger.name], 1, :]
-    ahead = np.array([math.cos(finger.azimuth), math.sin(finger.azimuth), 0.0])
-    return np.asarray(ends @ ahead + 1j * ends[..., 2])
+    return in_plane(foot, bones[..., foot.finger_slices[FINGER], 1, :])
 
 
-def junctions(foot: Foot, controls: Floats) -> Complexes:
-    """The system (1) step by step, as it is printed; v₀ = 0.
+def summed(foot: Foot, controls: Floats) -> Complexes:
+    """The system (1) summed term by term; v₀ = 0.
 
     Args:
         foot: The foot: its ρ and ω count.
         controls: v₁ to v_K, shape (…, K).
 
     Returns:
-        x₁ to x_K, shape (…, K).
+        x₀ to x_K, shape (…, K + 1).
     """
-    place = np.zeros(controls.shape[:-1], complex)
-    turn, places = np.zeros(controls.shape[:-1]), []
-    for k in range(1, controls.shape[-1] + 1):
-        turn = turn + controls[..., k - 1]
-        place = place + foot.rho**-k * np.exp(-1j * foot.omega * turn)
-        places.append(place)
-    return np.stack(places, axis=-1)
+    return junctions(foot.rho, foot.omega * np.cumsum(controls, axis=-1))
 
 
 def _closed_finger(foot: Foot) -> tuple[Measurement, ...]:
     """x₄ of finger 3 with all controls 1, whose phalanges point to 30°, …, 120°."""
-    tip = in_plane(foot, forward_kinematics(foot, np.ones(foot.phalanx_count)))[-1]
+    tip = junctions_of(foot, forward_kinematics(foot, np.ones(foot.phalanx_count)))[-1]
     length, height = [GOLDEN_MEAN**-k for k in range(5)], math.sqrt(3) / 2
-    by_hand = (
+    expected = (
         height * length[1] + (length[2] - length[4]) / 2,
         -length[1] / 2 - height * (length[2] + length[4]) - length[3],
     )
     return tuple(
-        Measurement(
+        by_hand(
             f"x4_{part.lower()}",
             rf"$\{part} x_4$ of finger 3, all controls 1",
             float(found),
-            equal(value, EXACT, BY_HAND),
+            value,
         )
         for part, found, value in zip(
-            ("Re", "Im"), (tip.real, tip.imag), by_hand, strict=True
+            ("Re", "Im"), (tip.real, tip.imag), expected, strict=True
         )
     )
 

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from zygopin.branch import Branch
 from zygopin.foot import Foot
+from zygopin.paper.toe_sums import placed
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -21,9 +22,6 @@ PAIR = ("finger1", "finger3")
 """The opposable fingers that the paper takes, which share a plane."""
 
 PLACE = "section 4.1, perching on a branch"
-
-EXACT = 1e-12
-"""Difference of two routes to a length of about one that is rounding."""
 
 ITERATED = 1e-9
 """The same where a route halves, iterates, or lets t leave [0, 1] by so much."""
@@ -64,9 +62,7 @@ def in_space(foot: Foot, numbers: ArrayLike) -> Floats:
     Returns:
         Points, shape (…, 3).
     """
-    values, azimuth = np.asarray(numbers), foot.fingers[2].azimuth
-    x, y = values.real * math.cos(azimuth), values.real * math.sin(azimuth)
-    return np.stack([x, y, values.imag], axis=-1)
+    return placed(np.asarray(numbers), foot.fingers[2].azimuth)
 
 
 def in_plane(foot: Foot, points: Floats) -> Complexes:

@@ -10,7 +10,10 @@ import numpy as np
 from zygopin.branch import Branch
 from zygopin.foot import Foot
 from zygopin.grasp import Criteria, GraspReport, Reading, check_grasp
-from zygopin.paper.finger_plane import Floats, tilt
+from zygopin.paper.finger_plane import (
+    Floats,
+    tilt,
+)
 
 
 @dataclass(frozen=True, eq=False)

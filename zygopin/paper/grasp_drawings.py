@@ -18,7 +18,10 @@ from zygopin.figures import (
     save_figure,
 )
 from zygopin.grasp import GraspReport, base_to_tip, check_grasp
-from zygopin.paper.finger_plane import PAIR, Floats
+from zygopin.paper.finger_plane import (
+    PAIR,
+    Floats,
+)
 from zygopin.paper.grasp_cases import Case, perch, quarter_turn, trunk
 from zygopin.side_views import draw_side_view, side_view
 

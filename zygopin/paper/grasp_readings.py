@@ -11,6 +11,7 @@ import numpy as np
 from zygopin.grasp import GraspReport, check_grasp
 from zygopin.paper.entry import (
     BY_HAND,
+    EXACT,
     Entry,
     Exhibit,
     Measurement,
@@ -18,7 +19,6 @@ from zygopin.paper.entry import (
     equal,
 )
 from zygopin.paper.finger_plane import (
-    EXACT,
     ITERATED,
     PAIR,
     PLACE,

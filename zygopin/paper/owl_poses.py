@@ -17,6 +17,7 @@ from zygopin.model import FootModel
 from zygopin.obstacle import Sphere
 from zygopin.paper.entry import (
     BY_HAND,
+    EXACT,
     Entry,
     Exhibit,
     Measurement,
@@ -24,8 +25,8 @@ from zygopin.paper.entry import (
     at_least,
     at_most,
     equal,
+    rounding,
 )
-from zygopin.paper.measured import EXACT, rounding
 from zygopin.paper.strike_grid import struck_area
 from zygopin.paper.toe_planes import first_azimuths
 from zygopin.spread import SpreadCurve, SpreadStudy, spread_study

@@ -11,13 +11,13 @@ import numpy as np
 from zygopin.finger import Finger
 from zygopin.foot import Foot
 from zygopin.paper.entry import (
+    EXACT,
     Entry,
     Exhibit,
     Measurement,
     at_least,
     equal,
 )
-from zygopin.paper.measured import EXACT
 from zygopin.paper.toe_planes import OPPOSED, SPLAY, plane_angle
 from zygopin.paper.top_view import (
     COUNTS,

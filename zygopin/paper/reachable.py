@@ -13,15 +13,17 @@ from zygopin.hausdorff import hausdorff_distance
 from zygopin.ifs import ReachableSet, contraction, hutchinson, reachable_set
 from zygopin.inverse import find_word, nearest_reachable
 from zygopin.paper.entry import (
-    ROUNDING,
+    EXACT,
     Entry,
     Exhibit,
     Measurement,
     at_least,
     at_most,
     equal,
+    rounding,
 )
-from zygopin.paper.finger_model import EXACT, Complexes, junctions
+from zygopin.paper.finger_model import summed
+from zygopin.paper.finger_plane import Complexes
 from zygopin.reach import finger_reach
 
 OMEGA = math.pi / 6
@@ -81,12 +83,10 @@ def contractions() -> Entry:
             "too."
         ),
         measurements=(
-            Measurement(
+            rounding(
                 "ratio",
-                r"ratio of distances after and before $f_v$, least and largest: "
-                r"farthest from $1/\rho$",
+                r"ratio of distances after and before $f_v$, farthest from $1/\rho$",
                 float(np.abs(after / before - 1 / GOLDEN_MEAN).max()),
-                at_most(EXACT, ROUNDING),
             ),
             Measurement(
                 "approach",
@@ -185,7 +185,7 @@ def _iterates() -> tuple[Measurement, ...]:
     """Part 1: words one by one against the operator and the library's set."""
     foot = Foot.preset("paper")
     every = words(LEVELS, DEPTH, np.arange(LEVELS**DEPTH))
-    tips = junctions(foot, every)[:, -1]
+    tips = summed(foot, every)[:, -1]
     points = np.zeros(1, complex)
     for _ in range(DEPTH):
         points = hutchinson(points, LEVELS, foot.rho, foot.omega)
@@ -200,12 +200,10 @@ def _iterates() -> tuple[Measurement, ...]:
         ),
     }
     return tuple(
-        Measurement(
+        rounding(
             name,
-            f"Hausdorff distance of the tips of all {LEVELS**DEPTH} sequences to "
-            f"{what}",
+            f"Hausdorff distance of the tips, {LEVELS**DEPTH} sequences, to {what}",
             hausdorff_distance(tips, found).value,
-            at_most(EXACT, ROUNDING),
         )
         for name, (what, found) in sets.items()
     )

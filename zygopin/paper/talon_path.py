@@ -11,8 +11,7 @@ from zygopin.engagement import engaged_junctions
 from zygopin.foot import Foot
 from zygopin.model import FootModel
 from zygopin.paper.descents import ball_under_toe, descent
-from zygopin.paper.entry import Entry, Exhibit, Measurement
-from zygopin.paper.measured import by_hand, rounding
+from zygopin.paper.entry import Entry, Exhibit, Measurement, by_hand, rounding
 from zygopin.paper.toe_sums import PAPER_TURN, POWER, ROOT
 from zygopin.reach import find_finger
 

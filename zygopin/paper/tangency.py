@@ -14,6 +14,7 @@ from zygopin.foot import Foot
 from zygopin.grasp import Criteria, check_grasp
 from zygopin.paper.entry import (
     BY_HAND,
+    EXACT,
     ROUNDING,
     Entry,
     Measurement,
@@ -22,7 +23,6 @@ from zygopin.paper.entry import (
     equal,
 )
 from zygopin.paper.finger_plane import (
-    EXACT,
     ITERATED,
     PAIR,
     PLACE,

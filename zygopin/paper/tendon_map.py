@@ -29,8 +29,8 @@ from zygopin.paper.entry import (
     Measurement,
     at_least,
     equal,
+    rounding,
 )
-from zygopin.paper.measured import rounding
 from zygopin.paper.toe_sums import (
     PAPER_TURN,
     closing_turns,

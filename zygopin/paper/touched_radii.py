@@ -9,8 +9,11 @@ from zygopin.clearance import branch_clearance
 from zygopin.foot import Foot
 from zygopin.grasp import check_grasp
 from zygopin.kinematics import forward_kinematics
-from zygopin.paper.entry import Measurement, at_most
-from zygopin.paper.finger_plane import EXACT, ITERATED, Floats
+from zygopin.paper.entry import EXACT, Measurement, at_most
+from zygopin.paper.finger_plane import (
+    ITERATED,
+    Floats,
+)
 from zygopin.touch import touch_intervals
 
 SAMPLES = 100_000

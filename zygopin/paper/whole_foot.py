@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from zygopin.foot import Foot
 from zygopin.kinematics import forward_kinematics
 from zygopin.model import FootModel
-from zygopin.paper.entry import Entry, Exhibit, Measurement, equal
-from zygopin.paper.measured import by_hand, rounding
+from zygopin.paper.entry import Entry, Exhibit, Measurement, by_hand, equal, rounding
 from zygopin.paper.toe_planes import (
     OPPOSED,
     between,

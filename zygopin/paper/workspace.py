@@ -14,16 +14,19 @@ from zygopin.ifs import hutchinson
 from zygopin.kinematics import forward_kinematics
 from zygopin.model import FootModel
 from zygopin.paper.entry import (
-    BY_HAND,
-    ROUNDING,
+    EXACT,
     Entry,
     Exhibit,
     Measurement,
     at_most,
+    by_hand,
     equal,
+    rounding,
 )
-from zygopin.paper.finger_model import EXACT, FINGER, Floats, in_plane
-from zygopin.reach import FingerReach, finger_reach
+from zygopin.paper.finger_model import FINGER, junctions_of
+from zygopin.paper.finger_plane import Floats
+from zygopin.phalanx_sweep import about_z
+from zygopin.reach import FingerReach, find_finger, finger_reach
 
 LEVELS, MIDDLE, COARSE = 33, 17, 9
 """Equal levels of [0, 1]: of the figure's sets, and of two that are compared."""
@@ -48,12 +51,12 @@ def algorithm() -> Entry:
         The entry.
     """
     foot = Foot.preset("paper")
-    finger = foot.fingers[FINGER]
+    finger = find_finger(foot, FINGER)
     plane = np.zeros(1, complex)
     for _ in range(finger.phalanges):
         plane = hutchinson(plane, IN_PINOCCHIO, foot.rho, foot.omega)
     space = np.stack([plane.real, np.zeros_like(plane.real), plane.imag], axis=-1)
-    turned = space @ _about_z(-foot.splay).T
+    turned = space @ about_z(-foot.splay)[:3, :3].T
     tips = FootModel(foot).forward(_grid(foot))[:, foot.finger_slices[finger.name]]
     reach = finger_reach(foot, finger.name, IN_PINOCCHIO).in_space()
     what = f"Hausdorff distance of the three steps, {len(plane)} points, to "
@@ -74,12 +77,7 @@ def algorithm() -> Entry:
             "Pinocchio finds when every control sequence is sent through the URDF."
         ),
         measurements=tuple(
-            Measurement(
-                name,
-                what + other,
-                hausdorff_distance(turned, points).value,
-                at_most(EXACT, ROUNDING),
-            )
+            rounding(name, what + other, hausdorff_distance(turned, points).value)
             for name, (points, other) in apart.items()
         ),
         scenes=(
@@ -148,11 +146,11 @@ def _extent(reach: FingerReach) -> tuple[Measurement, ...]:
     }
     most = {"max": "largest", "min": "least"}
     return tuple(
-        Measurement(
+        by_hand(
             name,
             rf"{most[name[2:]]} ${name[0]}$ of $R_4$, $\omega = \pi/6$",
             float(found),
-            equal(value, EXACT, BY_HAND),
+            value,
         )
         for name, (found, value) in ends.items()
     )
@@ -174,7 +172,7 @@ def _continuity(reach: FingerReach) -> tuple[Measurement, ...]:
     random = np.zeros((SAMPLES, foot.phalanx_count))
     rng = np.random.default_rng(3)
     random[:, foot.finger_slices[reach.finger.name]] = rng.uniform(size=(SAMPLES, 4))
-    tips = in_plane(foot, forward_kinematics(foot, random))[:, -1]
+    tips = junctions_of(foot, forward_kinematics(foot, random))[:, -1]
     bound = r"$\frac{\omega h}{2}\sum_j j\rho^{-j}$"
     return (
         Measurement(
@@ -233,18 +231,12 @@ def _reaches() -> dict[str, FingerReach]:
 
 def _grid(foot: Foot) -> Floats:
     """All controls of finger 3 from some levels, the other fingers straight."""
-    finger = foot.fingers[FINGER]
+    finger = find_finger(foot, FINGER)
     count = IN_PINOCCHIO**finger.phalanges
     controls = np.zeros((count, foot.phalanx_count))
     every = words(IN_PINOCCHIO, finger.phalanges, np.arange(count))
     controls[:, foot.finger_slices[finger.name]] = every
     return controls
-
-
-def _about_z(angle: float) -> Floats:
-    """A turn about z, shape (3, 3)."""
-    cosine, sine = math.cos(angle), math.sin(angle)
-    return np.array([[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1]])
 
 
 def _draw_reaches(path: Path) -> Path:

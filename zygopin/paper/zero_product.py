@@ -9,13 +9,17 @@ import numpy as np
 from zygopin.grasp import GraspReport, check_grasp
 from zygopin.paper.entry import (
     BY_HAND,
+    EXACT,
     Entry,
     Exhibit,
     Measurement,
     at_most,
     equal,
 )
-from zygopin.paper.finger_plane import EXACT, ITERATED, PLACE
+from zygopin.paper.finger_plane import (
+    ITERATED,
+    PLACE,
+)
 from zygopin.paper.grasp_cases import Case, quarter_turn, verdicts
 
 
