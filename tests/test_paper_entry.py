@@ -41,12 +41,13 @@ def test_an_entry_holds_where_all_its_numbers_do():
 
 
 @pytest.mark.parametrize(
-    ("key", "kind", "label"),
+    ("key", "kind", "label", "number"),
     [
-        ("proposition-1", "statement", "Proposition 1"),
-        ("erratum-13", "erratum", "Erratum 13"),
-        ("control-system", "statement", "Statement"),
+        ("proposition-1", "statement", "Proposition 1", 1),
+        ("erratum-13", "erratum", "Erratum 13", 13),
+        ("control-system", "statement", "Statement", None),
     ],
 )
-def test_an_entry_is_called_by_its_number_or_its_kind(key, kind, label):
+def test_an_entry_is_called_by_its_number_or_its_kind(key, kind, label, number):
     assert entry(key, kind=kind).label == label
+    assert entry(key, kind=kind).number == number

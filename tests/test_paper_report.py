@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import cmath
 import json
+import math
 import re
 from pathlib import Path
 
@@ -55,6 +57,50 @@ def test_every_number_is_as_it_must_be(report):
     assert fails == []
     assert report.holds
     assert len(report.entries) == ENTRIES
+
+
+PHI = (1 + math.sqrt(5)) / 2
+COSINE, ROOT = math.cos(math.pi / 12), math.sqrt(3) / 2
+TIP = sum(PHI**-k * cmath.exp(-1j * k * math.pi / 6) for k in range(1, 6))
+
+BY_HAND = [
+    ("control-system", "x4_re", (TIP - PHI**-5 * cmath.exp(-5j * math.pi / 6)).real),
+    ("figure-3", "x_max", 1 / PHI + 1 / PHI**2 + 1 / PHI**3 + 1 / PHI**4),
+    ("figure-3", "z_min", -(0.5 / PHI + ROOT / PHI**2 + 1 / PHI**3 + 1 / PHI**4)),
+    ("erratum-5", "base_one_level", 1 / (PHI - 1)),
+    ("figure-2", "angle_23", math.radians(30)),
+    ("figure-2", "angle_12", math.radians(150)),
+    ("figure-2", "length_4", sum(1.2**-k for k in range(1, 6))),
+    ("erratum-1", "planes_13_printed", math.radians(30)),
+    ("erratum-1", "planes_13_ours", 0.0),
+    ("erratum-2", "z_printed", -TIP.imag),
+    ("erratum-2", "z_ours", TIP.imag),
+    ("erratum-3", "angle", math.radians(180 * math.pi / 6)),
+    ("figure-4", "half_width", math.sqrt(6) - math.sqrt(2)),
+    ("erratum-4", "printed", 1 - COSINE**2),
+    ("erratum-4", "printed_once", 1 - math.pi / 12 * COSINE),
+    ("erratum-13", "radius_circle", 1 / PHI),
+    ("erratum-13", "radius_printed", 1 / PHI / (math.sqrt(3 * COSINE**2 + 1) - 1)),
+    ("erratum-13", "radius_true", 1 / PHI / (math.sqrt(3 / COSINE**2 + 1) - 1)),
+    ("erratum-8", "normals", 0.0),
+    ("erratum-8", "t_finger1", 0.65 * PHI - 1),
+    ("scalar-product", "perch_base_to_tip", 0.5),
+    ("figure-6", "azimuth_spread", math.radians(300)),
+    ("figure-7", "closed_re", TIP.real),
+    ("figure-7", "turned", math.radians(150)),
+    ("erratum-12", "turn_printed", 5 * math.pi**2 / 36),
+    ("erratum-10", "base_off", 1 / PHI),
+    ("tlm-map", "instant_ball", 0.45),
+    ("erratum-11", "lost_kept", 0.5),
+]
+"""Entries and numbers of the report, and what they are by hand."""
+
+
+@pytest.mark.parametrize(("key", "name", "value"), BY_HAND)
+def test_numbers_are_those_worked_by_hand(document, key, name, value):
+    found = document["entries"][key]["measurements"][name]
+    assert found["value"] == pytest.approx(value, abs=found["reference"]["tolerance"])
+    assert found["holds"]
 
 
 def test_figures_propositions_and_errata_are_all_there(document):

@@ -33,7 +33,7 @@ def test_every_python_block_has_its_output():
 
 
 def test_the_commands_work_in_the_order_of_the_readme(tmp_path):
-    assert len(COMMANDS) == 15
+    assert len(COMMANDS) == 16
     for line in COMMANDS:
         words, _, file = line.partition(">")
         result = subprocess.run(

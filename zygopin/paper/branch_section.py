@@ -54,7 +54,7 @@ def figure_4() -> Entry:
         key="figure-4",
         kind="figure",
         title="A branch and its section in the plane of two fingers",
-        place="figure 4",
+        place="section 4.1, figure 4",
         printed=r"a cylinder of radius 1, axis $x=0$, $z=-1$, and an ellipse in $p^1$",
         ours=r"the same branch; half-axes $r/\cos\Omega$ and $r$, $\Omega=\pi/12$",
         finding=(

@@ -70,7 +70,7 @@ def figure_5() -> Entry:
         key="figure-5",
         kind="figure",
         title="Closed toes on a branch",
-        place="figure 5",
+        place="section 4.1, figure 5",
         printed=(
             r"controls 1, $\omega=\pi/6$, $\Omega_1=\pi/12$, $\rho$ the golden mean: "
             r"stable on a cylinder of radius $r\sim0.58$, axis $x=0$, $z=-r$"
@@ -127,7 +127,7 @@ def erratum_13() -> Entry:
         key="erratum-13",
         kind="erratum",
         title="The caption's radius",
-        place="figure 5, caption",
+        place="section 4.1, caption of figure 5",
         printed=r"$r\sim0.58$",
         ours="0.6512, 0.6180 or 0.5868, as the section is read",
         finding=(

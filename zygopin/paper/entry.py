@@ -124,9 +124,15 @@ class Entry:
 
     @property
     def label(self) -> str:
-        """Its number in the paper, such as `Proposition 1`; without one, its kind."""
-        words = self.key.replace("-", " ") if self.key[-1].isdigit() else self.kind
+        """Its kind and number, such as `Proposition 1`; without one, its kind."""
+        words = self.kind if self.number is None else self.key.replace("-", " ")
         return words.capitalize()
+
+    @property
+    def number(self) -> int | None:
+        """Its number among the paper's figures or propositions, or our errata."""
+        last = self.key.rpartition("-")[2]
+        return int(last) if last.isdigit() else None
 
     @property
     def holds(self) -> bool:

@@ -10,7 +10,7 @@ from importlib import resources
 
 from zygopin.errors import MissingExtraError
 from zygopin.paper.document import PAPER
-from zygopin.paper.entry import Measurement, Reference, Unit
+from zygopin.paper.entry import Entry, Measurement, Reference, Unit
 from zygopin.paper.report import PaperReport
 
 try:
@@ -58,7 +58,7 @@ def page(report: PaperReport, pictures: Mapping[str, bytes]) -> str:
     return environment.from_string(_asset("report.html")).render(
         report=report,
         paper=PAPER,
-        kinds=KINDS,
+        contents=_contents(report),
         pictures=encoded,
         style=Markup(_asset("report.css")),  # noqa: S704 the project's own file
     )
@@ -89,6 +89,17 @@ def plain(text: str) -> str:
         The text.
     """
     return text.replace("$", "").replace("\\", "")
+
+
+def _contents(report: PaperReport) -> dict[str, list[Entry]]:
+    """The entries of each kind under its heading, numbered ones first."""
+    return {
+        heading: sorted(
+            (entry for entry in report.entries if entry.kind == kind),
+            key=lambda entry: entry.number or math.inf,
+        )
+        for kind, heading in KINDS.items()
+    }
 
 
 def _number(found: Measurement) -> str:
