@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import pytest
 
 from zygopin.paper.entry import Entry, Exhibit, Measurement, at_most, equal
@@ -72,6 +75,19 @@ def test_no_text_breaks_out_of_the_page():
     text = page(PaperReport((Chapter(NASTY, (entry,)),)), {"a.png": b"picture"})
     assert "<script" not in text
     assert 'id="&#34;' in text
+
+
+@pytest.mark.parametrize("package", ["jinja2", "latex2mathml"])
+def test_a_package_that_is_missing_names_the_extra(package, tmp_path):
+    code = (
+        f"import sys; sys.modules[{package!r}] = None; from zygopin.cli import main; "
+    )
+    command = [sys.executable, "-c", f"{code}main(['paper', '-o', {str(tmp_path)!r}])"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    remedy = "pip install 'zygopin[paper]' adds it"
+    assert done.stderr == f"zygopin: {package} is not installed: {remedy}\n"
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_pictures_are_inside_the_page():

@@ -18,7 +18,7 @@ try:
     from latex2mathml.converter import convert
     from markupsafe import Markup
 except ImportError as error:
-    raise MissingExtraError(str(error.name), "paper") from error
+    raise MissingExtraError(str(error.name).partition(".")[0], "paper") from error
 
 FIGURES = 6
 """Significant figures of a number on the page."""
