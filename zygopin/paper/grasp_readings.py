@@ -66,6 +66,7 @@ def scalar_product() -> Entry:
             *_case_measurements(trunk(), "trunk", "on the trunk"),
             *_case_measurements(perch(), "perch", "on the perch"),
             *_all_solutions(),
+            *_in_the_plane(),
         ),
         figures=(
             Exhibit(
@@ -168,34 +169,35 @@ def _formula(case: Case, report: GraspReport) -> float:
 
 def _all_solutions() -> tuple[Measurement, ...]:
     """The readings on all stable branches of a control set."""
+    found = solved_branches().found
+    masks = {
+        "solutions": ("stable branches of the system's entry", found.stable),
+        "grasping": ("of them grasping by the normals", found.grasping),
+        "grasping_base_to_tip": (
+            "grasping by the directions",
+            found.grasping_base_to_tip,
+        ),
+        "differ": (
+            "on which the two verdicts differ",
+            found.grasping != found.grasping_base_to_tip,
+        ),
+    }
+    return tuple(
+        Measurement(name, words, float(np.count_nonzero(mask)))
+        for name, (words, mask) in masks.items()
+    )
+
+
+def _in_the_plane() -> tuple[Measurement, ...]:
+    """How the product of the ellipse's tangents differs from that of the normals."""
     cases = solved_branches()
-    found, solved = cases.found, cases.solved
-    unit = solved.tangent / np.abs(solved.tangent)
+    angle, tangent = cases.solved.angle, cases.solved.tangent
+    unit, splay = tangent / np.abs(tangent), cases.foot.splay
     plane = (unit[:, 0] * np.conj(unit[:, 1])).real
-    normals = np.cos(solved.angle[:, 0] - solved.angle[:, 1])
-    differ = found.grasping != found.grasping_base_to_tip
-    splay = cases.foot.splay
+    normals = np.cos(angle[:, 0] - angle[:, 1])
     corners = section_tangent(np.array([1, 3]) * math.pi / 4, 1.0, 1 / math.cos(splay))
     corners = corners / np.abs(corners)
     return (
-        Measurement(
-            "solutions", "stable branches of the system's entry", float(len(found))
-        ),
-        Measurement(
-            "grasping",
-            "of them grasping by the normals",
-            float(np.count_nonzero(found.grasping)),
-        ),
-        Measurement(
-            "grasping_base_to_tip",
-            "grasping by the directions",
-            float(np.count_nonzero(found.grasping_base_to_tip)),
-        ),
-        Measurement(
-            "differ",
-            "on which the two verdicts differ",
-            float(np.count_nonzero(differ)),
-        ),
         Measurement(
             "plane",
             r"largest difference of $\dot\gamma\cdot\dot\gamma$, unit vectors of the "
