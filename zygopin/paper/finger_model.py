@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from zygopin.foot import GOLDEN_MEAN, Foot
+from zygopin.ifs import contraction
 from zygopin.kinematics import forward_kinematics
 from zygopin.model import FootModel
 from zygopin.paper.entry import Entry, Exhibit, Measurement, by_hand, rounding
@@ -76,14 +77,18 @@ def control_system() -> Entry:
     foot = Foot.preset("paper")
     controls = np.random.default_rng(0).uniform(size=(RANDOM, foot.phalanx_count))
     bones = forward_kinematics(foot, controls)
-    sums = summed(foot, controls[:, foot.finger_slices[FINGER]])[:, 1:]
+    toe = controls[:, foot.finger_slices[FINGER]]
+    sums = summed(foot, toe)[:, 1:]
+    miniature = contraction(summed(foot, toe[:, 1:]), toe[:, :1], foot.rho, foot.omega)
     apart = {
         "by_definition": float(np.abs(junctions_of(foot, bones) - sums).max()),
         "pinocchio": float(np.abs(bones - FootModel(foot).forward(controls)).max()),
+        "miniature": float(np.abs(sums[:, 1:] - miniature[:, 1:]).max()),
     }
     words = {
         "by_definition": f"the sum taken term by term, {RANDOM} random sequences",
         "pinocchio": "the URDF in Pinocchio, all 14 phalanges",
+        "miniature": r"that of the miniature, moved by $f_{v_1}$",
     }
     return Entry(
         key="control-system",
@@ -94,7 +99,10 @@ def control_system() -> Entry:
         ours="",
         finding=(
             "Three routes give the same junctions: the sum, the closed form of "
-            "forward_kinematics, and Pinocchio, which reads the URDF."
+            "forward_kinematics, and Pinocchio, which reads the URDF. What follows the "
+            r"first phalanx is a miniature of the whole, smaller by $\rho$: the finger "
+            r"with controls $v_2, v_3, \dots$, moved by $f_{v_1}$. This makes the "
+            "reachable sets self-similar, as the introduction says."
         ),
         measurements=(
             *_closed_finger(foot),

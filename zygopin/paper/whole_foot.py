@@ -69,7 +69,7 @@ def figure_2() -> Entry:
                 "figure-2.png",
                 "The foot from above, x up and y to the left as in the paper: straight "
                 "toes with their junctions, ρ = 1.2. Numbers beside the phalanges are "
-                "their lengths 1.2^−k. The longest toe measures 2.991.",
+                "their lengths $1.2^{-k}$. The longest toe measures 2.991.",
                 _draw_foot,
             ),
         ),
