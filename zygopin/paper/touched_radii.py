@@ -19,6 +19,9 @@ from zygopin.touch import touch_intervals
 SAMPLES = 100_000
 """Random control sequences."""
 
+PARTS = 20
+"""Parts in which they are measured: some ten megabytes each."""
+
 AXES = Branch(0.1, [(0.0, 0.0, -0.6), (0.0, 0.0, -1.0), (0.0, 0.0, -2.0)])
 """Axes for which touch intervals are sought; their radius does not matter."""
 
@@ -34,11 +37,8 @@ def touch_measurements(foot: Foot) -> tuple[Measurement, ...]:
     """
     found = touch_intervals(foot, AXES)
     controls = np.random.default_rng(3).uniform(size=(SAMPLES, 1, foot.phalanx_count))
-    bones = forward_kinematics(foot, controls)
-    axial = branch_clearance(bones, foot.radii, AXES).distance + AXES.radius
-    distance = np.stack(
-        [axial[..., part].min(axis=-1) for part in foot.finger_slices.values()], -1
-    )
+    parts = np.array_split(controls, PARTS)
+    distance = np.concatenate([_nearest(foot, part) for part in parts])
     below = (found.least[..., 0] - distance).max()
     above = (distance - found.most[..., 1]).max()
     ends = (
@@ -66,6 +66,14 @@ def touch_measurements(foot: Foot) -> tuple[Measurement, ...]:
             at_most(ITERATED, "a touch"),
         ),
     )
+
+
+def _nearest(foot: Foot, controls: Floats) -> Floats:
+    """How far each finger's nearest phalanx is from each axis, shape (n, 3, F)."""
+    bones = forward_kinematics(foot, controls)
+    axial = branch_clearance(bones, foot.radii, AXES).distance + AXES.radius
+    fingers = foot.finger_slices.values()
+    return np.stack([axial[..., part].min(axis=-1) for part in fingers], axis=-1)
 
 
 def _attained(foot: Foot, controls: Floats, radius: Floats) -> float:
