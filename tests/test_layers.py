@@ -187,6 +187,7 @@ LAYERS = (
     "paper.finger_model",
     "paper.reachable",
     "paper.workspace",
+    "paper.small_slips",
     "paper.branch_drawings",
     "paper.branch_section",
     "paper.ellipse_errata",

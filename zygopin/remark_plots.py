@@ -96,7 +96,7 @@ def _draw_stages(panel: Axes, found: Counterexample, unit: Unit) -> None:
         note(panel, f"v = {value:.3g}", tip, tip - before)
     panel.plot(0, 0, "s", color=INK, markersize=5)
     panel.set_aspect("equal")
-    panel.margins(0.12)
+    panel.margins(0.17, 0.12)
     panel.grid(color=PALE, linewidth=0.4)
     words = "red: the first phalanx meets the ball; grey: it has lost it"
     panel.set_title(f"{toe.name}; {words}", fontsize=9)

@@ -55,7 +55,8 @@ def erratum_2() -> Entry:
         place="section 4, below figure 2",
         printed=(
             r"Back toes by the initial rotation $v_0=\pi$ in system (1), whose turns "
-            r"are clockwise: $x_k=\sum_{j\le k}\rho^{-j}e^{-i(\pi+\theta_j)}$."
+            r"are clockwise. It follows that "
+            r"$x_k=\sum_{j\le k}\rho^{-j}e^{-i(\pi+\theta_j)}$."
         ),
         ours=(
             r"Back toes by the azimuth $\Omega+\pi$ about the vertical, with $v_0=0$: "

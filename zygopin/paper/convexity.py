@@ -59,10 +59,11 @@ def erratum_11() -> Entry:
             r"some $l$ at every $t\in[0,T]$."
         ),
         ours=(
-            r"Let $\mathcal O$ be convex and the turn $\omega(v(T)-v(0))$ less than "
-            r"$\pi$. A finger has contact on one closed interval of $v$, or never. So "
-            "it keeps contact if and only if it has it at both ends. This is always so "
-            r"if the base is in $\mathcal O$."
+            r"Let $\mathcal O$ be convex and closed and the turn $\omega(v(T)-v(0))$ "
+            r"less than $\pi$. A finger has contact on one closed interval of $v$, or "
+            "never; so it keeps contact if and only if it has it at both ends. Some "
+            "finger or other has contact throughout exactly if their intervals cover "
+            r"$[v(0), v(T)]$. This is always so if the base is in $\mathcal O$."
         ),
         finding=(
             "Without contact forces the phalanx passes through the obstacle. A ball "

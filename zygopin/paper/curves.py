@@ -55,7 +55,10 @@ def phalanx_parametrisation() -> Entry:
             r"$\phi(t;(v),k)=x_{k-1}+\frac{t}{\rho^k}e^{-i\omega(v_0+\dots+v_k)}$, "
             r"$t\in[0,1]$"
         ),
-        ours=r"the same; finger 1 is the mirror image $-\bar\phi$, $v_0=0$",
+        ours=(
+            r"the same, $\omega$ for the printed $w$; finger 1 is the mirror image "
+            r"$-\bar\phi$, $v_0=0$"
+        ),
         finding=(
             "For random controls the points are those of the bones of forward "
             "kinematics in space, for all phalanges of fingers 1 and 3."

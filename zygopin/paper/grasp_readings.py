@@ -55,9 +55,12 @@ def scalar_product() -> Entry:
             "away from each other, so on a trunk on which they lie nearly flat their "
             "product is nearly −1, which the formula calls a grasp; clasping a perch "
             "from both sides they both point down, and it is positive, which is none. "
-            "The parallelism condition orients a phalanx along $\\dot\\gamma$, which "
-            "goes one way around the branch. Seen along the branch the product of "
-            "these unit tangents is that of the contact normals: a grasp is then two "
+            "The factors t make it vanish where a toe touches at the base, or with its "
+            "first point. The paper's remark, that both terms are the phalanges' "
+            "orientation, supports base to tip; the normals are our proposal. They are "
+            "what the tangents give where all go one way around the branch, as "
+            "$\\dot\\gamma$ does: seen along the branch the product of the unit "
+            "tangents is that of the contact normals, and a grasp is two "
             "contacts that are at least a quarter turn apart. In the plane of the "
             "fingers, which cuts the branch obliquely, it differs from that by a "
             "little, and may do so in sign where the normals are nearly perpendicular."
@@ -171,7 +174,7 @@ def _all_solutions() -> tuple[Measurement, ...]:
     """The readings on all stable branches of a control set."""
     found = solved_branches().found
     masks = {
-        "solutions": ("stable branches of the system's entry", found.stable),
+        "solutions": ("solutions of the system's entry, stable", found.stable),
         "grasping": ("of them grasping by the normals", found.grasping),
         "grasping_base_to_tip": (
             "grasping by the directions",

@@ -42,7 +42,7 @@ def erratum_1() -> Entry:
         key="erratum-1",
         kind="erratum",
         title="Which fingers share a plane",
-        place="section 4, below figure 2",
+        place="section 4, below figure 2; section 4.1",
         printed=(
             r"$\Omega_1=\Omega_2=\pi/12$, $\Omega_3=\Omega_3=-\pi/12$; $v_0=0$ for "
             r"fingers 1 and 3, $v_0=\pi$ for 2 and 4; $p^1(=p^2)$ for the plane of "

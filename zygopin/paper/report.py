@@ -18,6 +18,7 @@ from zygopin.paper import (
     owl_poses,
     planes,
     reachable,
+    small_slips,
     stability,
     talon_path,
     tangency,
@@ -73,8 +74,9 @@ _CHAPTERS: dict[str, tuple[Callable[[], Entry], ...]] = {
         tendon_print.erratum_10,
         convexity.erratum_11,
     ),
+    "Smaller slips": (small_slips.smaller_slips,),
 }
-"""What makes each entry, by chapter: sections 2 and 3, 4, 4.1, 5 of the paper."""
+"""What makes each entry, by chapter: sections 2 and 3, 4, 4.1, 5 of the paper; all."""
 
 ENTRIES = sum(map(len, _CHAPTERS.values()))
 """Number of entries."""

@@ -50,8 +50,9 @@ def proposition_2() -> Entry:
         title="Which branches the foot can lie on, and which it grasps",
         place=f"{PLACE}, proposition 2",
         printed=(
-            "if two control sequences solve the system with the same cylinder, the "
-            "foot can be stable on it; if also the grasping condition holds, it grasps"
+            r"if two control sequences, $K_1\leq2$ and $K_3\leq4$ long, solve the "
+            "system with the same cylinder, the foot can be stable on it; if also the "
+            "grasping condition holds, it grasps"
         ),
         ours="both directions, with the corrected system and condition",
         finding=(
@@ -95,8 +96,8 @@ def erratum_9() -> Entry:
             "The corrected system is both: a foot is stable on a branch by fingers 1 "
             "and 3 exactly if the system has a solution for a phalanx of each. Here "
             "this is held against the exact engine's verdict on the branches of the "
-            "system's entry and on the same with their radii changed; the exhaustive "
-            "search is in the entry on proposition 2."
+            "system's entry and on the same with their radii changed. The exhaustive "
+            "search, and the same for grasping, are in the entry on proposition 2."
         ),
         measurements=(
             Measurement("poses", "poses and branches compared", float(len(stable))),
@@ -133,10 +134,17 @@ def _if() -> tuple[Measurement, ...]:
             opposed & ~found.grasping,
         ),
         ("if_grasping_fcl", "the same by FCL", opposed & ~fcl.grasping),
+        (
+            "only_if_grasping",
+            r"grasping by either engine and $\cos(\theta_1-\theta_3)>0$",
+            (found.grasping | fcl.grasping) & ~opposed,
+        ),
     )
     return (
         Measurement(
-            "solutions", "branches on which the system is solved", float(len(found))
+            "solutions",
+            "solutions of the system's entry, a family once",
+            float(len(found)),
         ),
         Measurement(
             "opposed",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,7 @@ HALVINGS = 8
 """How often the squares at the edge are halved."""
 
 
+@lru_cache(4)
 def struck_area(foot: Foot, radius: float, reversal: float) -> tuple[float, float]:
     """Area of the places, seen from above, where straight toes meet a ball.
 

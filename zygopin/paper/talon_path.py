@@ -35,7 +35,7 @@ def figure_7() -> Entry:
         finding=(
             "The caption does not say which scaling factor it takes; here it is the "
             r"golden mean, with $\omega=\pi/6$. At $v=1$ the last phalanx has turned "
-            r"by $5\omega=150°$ and points back towards the base."
+            r"by $5\omega=150°$ and points backward and down."
         ),
         measurements=_talon(Foot.preset("paper")),
         figures=(

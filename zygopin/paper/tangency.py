@@ -103,9 +103,11 @@ def tangency_system() -> Entry:
             r"modulo $\pi$, $\theta\in[0,2\pi)$, $t\in[0,1]$"
         ),
         finding=(
-            "All branches on which fingers 1 and 3 are stable are listed for "
-            f"{LEVELS} levels of each control, by linear equations seen along the "
-            "branch. On each of them the corrected system is solved in the finger's "
+            "For branches with their axes at $x=0$ and the base outside, all solutions "
+            f"for fingers 1 and 3 are listed, {LEVELS} levels of each control, by "
+            "linear equations seen along the branch. A family, in which one parameter "
+            "stays free, counts once, by one of its branches. On each of them the "
+            "corrected system is solved in the finger's "
             r"plane: parallelism leaves two $\theta$, and incidence then one $t$. It "
             "has a solution wherever the exact engine and FCL find a tangency. "
             "Conversely, where a phalanx is not tangent, what is "
@@ -123,7 +125,12 @@ def _solutions(cases: Solved) -> tuple[Measurement, ...]:
     turned = np.abs(np.exp(1j * angle) - np.exp(1j * solved.angle))
     return (
         Measurement(
-            "solutions", "branches on which the system is solved", float(len(found))
+            "solutions",
+            "solutions listed, a family once",
+            float(len(found)),
+        ),
+        Measurement(
+            "families", "families among them", float(np.count_nonzero(found.family))
         ),
         Measurement(
             "incidence",

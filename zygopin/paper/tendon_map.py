@@ -62,8 +62,8 @@ def tlm_map() -> Entry:
         printed=(
             r"Free while no first phalanx meets $\mathcal O$: "
             r"$x_k=\sum_{j=1}^{k+1}\rho^{-j}e^{-i\omega\sum_{n=1}^{j}u_n(t)}$. "
-            r"Otherwise $x_k=\sum_{j=1}^{k+1}\rho^{-j}e^{-i\omega jv(t)}$. At time $T$ "
-            "the tendon is locked."
+            r"Otherwise $x_k=\sum_{j=1}^{k+1}\rho^{-j}e^{-i\omega jv(t)}$. The lock "
+            "closes after $T$."
         ),
         ours=(
             r"Three modes: FREE, CLOSING with "
@@ -86,10 +86,11 @@ def tlm_map() -> Entry:
         figures=(
             Exhibit(
                 "tlm-map.png",
-                "The strike over time. Above: the least clearance of each toe to the "
-                "ball. Below: the controls of each toe. They wander as they are told "
-                "until toe 3 meets the ball at 450 ms, all follow v(t) for 250 ms, "
-                "and stay at 1 whatever they are told then.",
+                "The strike over time, a closing taken to last a quarter of a second. "
+                "Above: the least clearance of each toe to the ball; toe 3 sinks into "
+                "it. Below: the controls of each toe. The outer joints wander as they "
+                "are told until toe 3 meets the ball at 450 ms, all follow v(t) for "
+                "250 ms, and stay at 1 whatever they are told then.",
                 partial(_draw_strike, strike),
             ),
         ),

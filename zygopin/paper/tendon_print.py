@@ -53,8 +53,9 @@ def erratum_10() -> Entry:
         ),
         finding=(
             r"Printed, $x_0$ is not the base: it lies $1/\rho$ away and moves on an "
-            r"arc as $v$ grows. Toe $K$ has $K+1$ phalanges, and the segment from the "
-            r"origin to $x_1$, called the first phalanx, spans two. Without $v_0$ a "
+            r"arc as $v$ grows. A toe of $K$ phalanges gets $K+1$, and the segment "
+            r"from the origin to $x_1$, called the first phalanx, spans two. Without "
+            r"$v_0$ a "
             "back toe points forward. The sum to k agrees with system (1)."
         ),
         measurements=_one_too_many(Foot.preset("paper")),

@@ -67,7 +67,7 @@ def figure_2() -> Entry:
         figures=(
             Exhibit(
                 "figure-2.png",
-                "The foot from above, x up and y to the left as in the paper: straight "
+                "The foot from above, forward up and left to the left: straight "
                 "toes with their junctions, ρ = 1.2. Numbers beside the phalanges are "
                 "their lengths $1.2^{-k}$. The longest toe measures 2.991.",
                 _draw_foot,

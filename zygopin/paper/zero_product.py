@@ -44,9 +44,10 @@ def erratum_8() -> Entry:
             "The two differ where the phalanges are perpendicular. Worked by hand: "
             r"with $\omega=\pi/2$, $\Omega=0$, finger 1 straight and controls 0, 1, 0, "
             r"0 for finger 3, the branch of radius 0.65 with its centre at "
-            r"$x=1/\rho-0.65$, $z=-0.65$ touches finger 1 from below and the upright "
-            "last phalanx of finger 3 from behind. Nothing enters it. By the "
-            "definition this is a grasp, by the formula it is none."
+            r"$x=1/\rho-0.65$, $z=-0.65$ touches finger 1 from below and the last "
+            "phalanx of finger 3, which hangs down, on its inner side. Nothing enters "
+            "it. By the definition this is a grasp, by the formula it is none. (The "
+            "paper's branches have their axes at $x=0$; the definition does not.)"
         ),
         measurements=(
             Measurement(
@@ -73,8 +74,8 @@ def erratum_8() -> Entry:
         figures=(
             Exhibit(
                 "erratum-8.png",
-                "Side view, in the paper's units: finger 1 lies on the branch, the "
-                "last phalanx of finger 3 stands upright beside it. The contact "
+                "Side view, in the paper's units: finger 1 (blue) lies on the branch, "
+                "the last phalanx of finger 3 (purple) hangs beside it. The contact "
                 "normals (black) are perpendicular, and so are the phalanges (red).",
                 _draw_quarter_turn,
             ),
