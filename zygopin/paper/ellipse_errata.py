@@ -106,7 +106,7 @@ def ellipse_centre() -> Entry:
                 equal(
                     math.hypot(height * math.cos(foot.splay), radius - height) - radius,
                     EXACT,
-                    f"√(c_y² cos²Ω + (r − c_y)²) − r, {BY_HAND}",
+                    f"√(c² cos²Ω + (r − c)²) − r, c the height, {BY_HAND}",
                 ),
             ),
             Measurement(
