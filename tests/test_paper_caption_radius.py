@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from paper_entries import broken, check_exhibits, numbers
+from entry_checks import broken, check_exhibits, numbers
 
 from zygopin import Foot
 from zygopin.paper import caption_radius, closed_toes

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from paper_entries import broken, check_exhibits, numbers
+from entry_checks import broken, check_exhibits, numbers
 
 from zygopin.paper import ellipse_errata
 from zygopin.paper.ellipse_errata import ellipse_centre, erratum_4

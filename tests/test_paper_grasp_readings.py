@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from paper_entries import broken, check_exhibits, numbers
+from entry_checks import broken, check_exhibits, numbers
 
 from zygopin import Foot
 from zygopin.paper import grasp_readings

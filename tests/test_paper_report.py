@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from browser import visit
+from entry_checks import check_texts
 from test_startup import FCL, HOLD, TABLE, assert_only, loaded
 
 from zygopin import FileError, write_paper_report
@@ -122,6 +123,11 @@ def test_no_two_entries_or_files_share_a_name(report):
         assert len(set(names)) == len(names), entry.key
         assert all(map(str.isidentifier, names)), entry.key
         assert "$" not in entry.title
+
+
+def test_every_text_is_there_and_tex_ends_where_it_begins(report):
+    for each in report.entries:
+        check_texts(each)
 
 
 def test_the_page_has_every_figure_and_links_every_scene(folder, report, text):

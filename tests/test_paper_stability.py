@@ -6,7 +6,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from paper_entries import broken, numbers
+from entry_checks import broken, numbers
 
 from zygopin import Foot, forward_kinematics, resting_radii
 from zygopin.paper import stability, touched_radii

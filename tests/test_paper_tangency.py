@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from paper_entries import broken, numbers
+from entry_checks import broken, numbers
 
 from zygopin import Foot, count_systems
 from zygopin.paper import tangency, tangency_solver

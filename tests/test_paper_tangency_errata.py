@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from paper_entries import broken, numbers
+from entry_checks import broken, numbers
 
 from zygopin.paper import tangency_errata
 from zygopin.paper.tangency_errata import erratum_6, erratum_7

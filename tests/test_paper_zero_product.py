@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from paper_entries import broken, check_exhibits, numbers
+from entry_checks import broken, check_exhibits, numbers
 
 from zygopin.paper import zero_product
 from zygopin.paper.grasp_cases import quarter_turn

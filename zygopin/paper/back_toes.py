@@ -55,8 +55,8 @@ def erratum_2() -> Entry:
         place="section 4, below figure 2",
         printed=(
             r"Back toes by the initial rotation $v_0=\pi$ in system (1), whose turns "
-            r"are clockwise. It follows that "
-            r"$x_k=\sum_{j\le k}\rho^{-j}e^{-i(\pi+\theta_j)}$."
+            r"are clockwise. It follows that $x_k=\sum_{j\le "
+            r"k}\rho^{-j}e^{-i(\pi+\theta_j)}$."
         ),
         ours=(
             r"Back toes by the azimuth $\Omega+\pi$ about the vertical, with $v_0=0$: "
@@ -64,19 +64,19 @@ def erratum_2() -> Entry:
         ),
         finding=(
             r"Take $v_0=\pi$ as the half turn that is meant. Then every junction is "
-            "minus that of the forward toe: a straight back toe is right, a flexed one "
-            "rises. A half turn about the vertical mirrors the toe instead, and it "
-            "curls down. The foot's two halves could otherwise not close on a branch "
-            "below it."
+            "minus that of the forward toe: a straight back toe is right, a flexed "
+            "one rises. A half turn about the vertical mirrors the toe instead, and "
+            "it curls down. The foot's two halves could otherwise not close on a "
+            "branch below it."
         ),
         measurements=_curls(),
         figures=(
             Exhibit(
                 "erratum-2.png",
                 "Side view of a toe of 5 phalanges with all controls 0, 1/2 and 1, "
-                "golden mean, ω = π/6. Left: forward toe and back toe as printed, "
-                f"v₀ a half turn: its tip rises to {CURLED:.3f}. Right: ours, the "
-                f"mirror image: the tip sinks to −{CURLED:.3f}.",
+                "golden mean, ω = π/6. Left: forward toe and back toe as printed, v₀ "
+                f"a half turn: its tip rises to {CURLED:.3f}. Right: ours, the mirror "
+                f"image: the tip sinks to −{CURLED:.3f}.",
                 partial(_draw, HALF_TURN, "v₀ a half turn: curls up"),
             ),
         ),
@@ -95,8 +95,8 @@ def erratum_3() -> Entry:
         title="A half turn is not v₀ = π",
         place="section 4, below figure 2; section 3",
         printed=(
-            r"$v_0^2=v_0^4=\pi$, where a finger at rest forms the angle "
-            r"$-v_0\omega$ with the x-axis."
+            r"$v_0^2=v_0^4=\pi$, where a finger at rest forms the angle $-v_0\omega$ "
+            "with the x-axis."
         ),
         ours=r"The orientation is an angle; a half turn would be $v_0=\pi/\omega=6$.",
         finding=(
@@ -140,8 +140,8 @@ def _curls() -> tuple[Measurement, ...]:
     return (
         by_hand(
             "z_printed",
-            "height of the back toe's tip, 5 phalanges, all controls 1, printed "
-            r"sum: $+\sum\rho^{-j}\sin(j\pi/6)$",
+            "height of the back toe's tip, 5 phalanges, all controls 1, printed sum: "
+            r"$+\sum\rho^{-j}\sin(j\pi/6)$",
             float(by_sum[-1].imag),
             CURLED,
         ),
@@ -154,14 +154,14 @@ def _curls() -> tuple[Measurement, ...]:
         *_routes("printed", routes, by_sum),
         rounding(
             "point_reflection",
-            "largest distance of the printed toe's junctions from minus the "
-            "forward toe's",
+            "largest distance of the printed toe's junctions from minus the forward "
+            "toe's",
             float(np.abs(by_sum + forward).max()),
         ),
         rounding(
             "mirror",
-            "largest distance of our toe's junctions from the forward toe's, "
-            "mirrored at the vertical",
+            "largest distance of our toe's junctions from the forward toe's, mirrored "
+            "at the vertical",
             float(np.abs(ours + forward.conj()).max()),
         ),
         rounding(

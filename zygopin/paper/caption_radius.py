@@ -131,16 +131,17 @@ def erratum_13() -> Entry:
         printed=r"$r\sim0.58$",
         ours="0.6512, 0.6180 or 0.5868, as the section is read",
         finding=(
-            r"Tangency of the second phalanx gives, for half-axes $Ar$ and $r$, "
-            r"$r=\frac{1}{\rho(S-1)}$ and $t=\frac{\sqrt3}{2}\rho"
-            r"(\frac{1+(A^2-1)/S}{S-1}-1)$ with $S=\sqrt{3A^2+1}$. SciPy, given "
-            r"the system's equations in $r$, $t$ and $\theta$, finds the same. The "
-            "printed ellipse and the circle solve the system at radii that are not "
-            "the caption's. The true section has the radius nearest to it, but "
-            r"$t<0$: it is no solution either. A branch that is touched by the "
-            r"junction $x_1$ has almost that radius. With parallelism as it is "
-            "printed, by the argument of a point, no branch under the base solves the "
-            "system away from the base: a chord would have to be a tangent at its end."
+            "Tangency of the second phalanx gives, for half-axes $Ar$ and $r$, "
+            r"$r=\frac{1}{\rho(S-1)}$ and "
+            r"$t=\frac{\sqrt3}{2}\rho(\frac{1+(A^2-1)/S}{S-1}-1)$ with "
+            r"$S=\sqrt{3A^2+1}$. SciPy, given the system's equations in $r$, $t$ and "
+            r"$\theta$, finds the same. The printed ellipse and the circle solve the "
+            "system at radii that are not the caption's. The true section has the "
+            "radius nearest to it, but $t<0$: it is no solution either. A branch that "
+            "is touched by the junction $x_1$ has almost that radius. With "
+            "parallelism as it is printed, by the argument of a point, no branch "
+            "under the base solves the system away from the base: a chord would have "
+            "to be a tangent at its end."
         ),
         measurements=(
             *(m for name in READINGS for m in _solution_measurements(foot, name)),

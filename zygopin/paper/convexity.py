@@ -69,11 +69,11 @@ def erratum_11() -> Entry:
             "Without contact forces the phalanx passes through the obstacle. A ball "
             "under toe 4 that touches the straight first phalanx is swept through: "
             r"with $s$ the place of touch and $r=s\tan(\omega/4)$ it is lost at "
-            r"$v=1/2$. The printed system has no memory: with the guard false again "
-            "it would return to the free mode in the middle of the closing. With "
-            "contact forces, the reading “contact”, the same ball stops the toe and "
-            "contact is kept. On random balls, boxes and capsules in the way of the "
-            "first phalanges the corrected statement holds without exception."
+            "$v=1/2$. The printed system has no memory: with the guard false again it "
+            "would return to the free mode in the middle of the closing. With contact "
+            "forces, the reading “contact”, the same ball stops the toe and contact "
+            "is kept. On random balls, boxes and capsules in the way of the first "
+            "phalanges the corrected statement holds without exception."
         ),
         measurements=(
             *_lost(found),
@@ -84,9 +84,9 @@ def erratum_11() -> Entry:
             Exhibit(
                 "erratum-11.png",
                 "The paper's foot and a ball of radius 0.065 below toe 4. Left: the "
-                "first phalanx meets the ball (red) up to v = 0.5 and has then lost "
-                "it (grey). Right: clearances of all four first phalanges; after "
-                "v = 0.5 none is in contact.",
+                "first phalanx meets the ball (red) up to v = 0.5 and has then lost it "
+                "(grey). Right: clearances of all four first phalanges; after v = 0.5 "
+                "none is in contact.",
                 _draw_remark,
             ),
         ),
@@ -131,7 +131,7 @@ def _lost(found: Counterexample) -> tuple[Measurement, ...]:
         ),
         Measurement(
             "gap",
-            r"clearance of toe 4's first phalanx at $v=1$: "
+            "clearance of toe 4's first phalanx at $v=1$: "
             r"$s\sin(3\omega/4)/\cos(\omega/4)-r$",
             float(_clearances(found, np.ones(1), engine="exact")[0, 3]),
             equal(

@@ -88,20 +88,20 @@ def ellipse_centre() -> Entry:
         title="The centre of the ellipse",
         place=PLACE,
         printed=(
-            r"the centre is $ic_y$, yet $\gamma=c_y+r(\cos\Omega_1\cos\theta+"
-            r"i\sin\theta)$"
+            "the centre is $ic_y$, yet "
+            r"$\gamma=c_y+r(\cos\Omega_1\cos\theta+i\sin\theta)$"
         ),
         ours=r"$\gamma=ic_y+r(\frac{\cos\theta}{\cos\Omega_1}+i\sin\theta)$",
         finding=(
-            r"Without its $i$ the height moves the ellipse along the finger instead "
-            "of down. The coordinates just before it and the sentence just after it "
-            "have the centre where it belongs."
+            "Without its $i$ the height moves the ellipse along the finger instead of "
+            "down. The coordinates just before it and the sentence just after it have "
+            "the centre where it belongs."
         ),
         measurements=(
             Measurement(
                 "top",
                 r"distance from the bark of the printed $\gamma(\pi/2)$, even with the "
-                r"right half-axes; $r=1$, $c_y=-1$",
+                "right half-axes; $r=1$, $c_y=-1$",
                 float(top),
                 equal(
                     math.hypot(height * math.cos(foot.splay), radius - height) - radius,

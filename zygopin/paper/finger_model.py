@@ -60,7 +60,7 @@ def figure_1() -> Entry:
             Exhibit(
                 "figure-1.png",
                 r"A finger with $\rho$ the golden mean and $\omega = \pi/6$. The "
-                r"broken line goes on straight; $v_{k+1} = 1$ turns phalanx $k+1$ from "
+                "broken line goes on straight; $v_{k+1} = 1$ turns phalanx $k+1$ from "
                 r"there by $\omega$.",
                 partial(_draw_notation, toe, foot.omega),
             ),
@@ -99,10 +99,10 @@ def control_system() -> Entry:
         ours="",
         finding=(
             "Three routes give the same junctions: the sum, the closed form of "
-            "forward_kinematics, and Pinocchio, which reads the URDF. What follows the "
-            r"first phalanx is a miniature of the whole, smaller by $\rho$: the finger "
-            r"with controls $v_2, v_3, \dots$, moved by $f_{v_1}$. This makes the "
-            "reachable sets self-similar, as the introduction says."
+            "forward_kinematics, and Pinocchio, which reads the URDF. What follows "
+            r"the first phalanx is a miniature of the whole, smaller by $\rho$: the "
+            r"finger with controls $v_2, v_3, \dots$, moved by $f_{v_1}$. This makes "
+            "the reachable sets self-similar, as the introduction says."
         ),
         measurements=(
             *_closed_finger(foot),

@@ -69,8 +69,8 @@ def draw_readings(path: Path) -> Path:
     for view, case, title in zip(views, (trunk(), perch()), titles, strict=True):
         report = _draw_case(view, case)
         words = (
-            f"{title}\nnormals {float(report.scalar_product):.3f}, "
-            f"directions {float(report.scalar_product_base_to_tip):.3f}"
+            f"{title}\nnormals {float(report.scalar_product):.3f}, directions "
+            f"{float(report.scalar_product_base_to_tip):.3f}"
         )
         view.set_title(words.replace("-", "−"), fontsize=10)
     _name_arrows(figure, views[0])

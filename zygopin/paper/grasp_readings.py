@@ -29,8 +29,8 @@ from zygopin.paper.grasp_cases import Case, perch, trunk, verdicts
 from zygopin.paper.tangency import solved_branches
 
 CONDITION = (
-    r"$(\frac{t^{(1)}}{\rho^{K_1}}e^{-i\omega\sum v_n^{(1)}})\cdot"
-    r"(\frac{t^{(3)}}{\rho^{K_3}}e^{-i\omega\sum v_n^{(3)}})<0$"
+    r"$(\frac{t^{(1)}}{\rho^{K_1}}e^{-i\omega\sum "
+    r"v_n^{(1)}})\cdot(\frac{t^{(3)}}{\rho^{K_3}}e^{-i\omega\sum v_n^{(3)}})<0$"
 )
 
 
@@ -60,10 +60,10 @@ def scalar_product() -> Entry:
             "orientation, supports base to tip; the normals are our proposal. They are "
             "what the tangents give where all go one way around the branch, as "
             "$\\dot\\gamma$ does: seen along the branch the product of the unit "
-            "tangents is that of the contact normals, and a grasp is two "
-            "contacts that are at least a quarter turn apart. In the plane of the "
-            "fingers, which cuts the branch obliquely, it differs from that by a "
-            "little, and may do so in sign where the normals are nearly perpendicular."
+            "tangents is that of the contact normals, and a grasp is two contacts that "
+            "are at least a quarter turn apart. In the plane of the fingers, which "
+            "cuts the branch obliquely, it differs from that by a little, and may do "
+            "so in sign where the normals are nearly perpendicular."
         ),
         measurements=(
             *_case_measurements(trunk(), "trunk", "on the trunk"),

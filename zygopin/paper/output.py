@@ -61,6 +61,7 @@ def iter_paper_report(folder: Path | str) -> Iterator[tuple[str, Entry]]:
         done.append((title, entry))
         yield title, entry
     report = gathered(done)
-    text = json.dumps(paper_document(report), indent=2, ensure_ascii=False)
+    document = paper_document(report)
+    text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
     write_text(Path(folder) / NUMBERS, text + "\n")
     write_text(Path(folder) / PAGE, page(report, pictures))

@@ -112,16 +112,16 @@ def _pictures() -> tuple[Exhibit, ...]:
     return (
         Exhibit(
             "figure-6.png",
-            "The owl's foot from above, straight toes with their skin, x up and y "
-            "to the left. Left: the zygodactyl pose. Right: toe 4 turned forward, "
-            "called isodactyl in the paper. Dashed: the hull of the talons.",
+            "The owl's foot from above, straight toes with their skin, x up and y to "
+            "the left. Left: the zygodactyl pose. Right: toe 4 turned forward, called "
+            "isodactyl in the paper. Dashed: the hull of the talons.",
             _draw_poses,
         ),
         Exhibit(
             "figure-6-areas.png",
-            "Areas seen from above, over that of the zygodactyl pose, as toe 4 "
-            "turns: the hull of the talons, and where a ball of radius s/2 is met "
-            "by the first or by all phalanges. All are largest at 60°.",
+            "Areas seen from above, over that of the zygodactyl pose, as toe 4 turns: "
+            "the hull of the talons, and where a ball of radius s/2 is met by the "
+            "first or by all phalanges. All are largest at 60°.",
             _draw_areas,
         ),
     )
@@ -189,7 +189,7 @@ def _strikes(owl: Foot, study: SpreadStudy) -> tuple[Measurement, ...]:
         found.append(
             Measurement(
                 f"strike_{pose}",
-                r"area over $s^2$ where a ball of radius s/2 is met by any phalanx, "
+                "area over $s^2$ where a ball of radius s/2 is met by any phalanx, "
                 f"{pose} pose",
                 area / owl.scale**2,
                 equal(counted, error, "cells of a grid, counted and bounded"),

@@ -50,7 +50,7 @@ def erratum_1() -> Entry:
         ),
         ours=(
             r"$\Omega_1=\Omega_3=-\pi/12$, $\Omega_2=\Omega_4=\pi/12$; fingers 1 and 4 "
-            r"point back; $p^1=p^3$."
+            "point back; $p^1=p^3$."
         ),
         finding=(
             r"Read with $\Omega_4$ for the second $\Omega_3$, the printed numbers put "
@@ -67,11 +67,10 @@ def erratum_1() -> Entry:
         figures=(
             Exhibit(
                 "erratum-1.png",
-                "The labels of figure 2 where the source puts them, over straight "
-                "toes at the one fitted scale, 52.8 points per unit; the base is "
-                "placed by eye from left to right. Left: our foot; each name stands "
-                "beside its tip. Right: the printed angles; only finger 3 ends at "
-                "its name.",
+                "The labels of figure 2 where the source puts them, over straight toes "
+                "at the one fitted scale, 52.8 points per unit; the base is placed by "
+                "eye from left to right. Left: our foot; each name stands beside its "
+                "tip. Right: the printed angles; only finger 3 ends at its name.",
                 partial(_draw_labels, {"ours": foot, "printed angles": printed}),
             ),
         ),
@@ -96,31 +95,33 @@ def printed_foot() -> Foot:
 
 def _planes(foot: Foot, printed: Foot) -> tuple[Measurement, ...]:
     """Angle between the planes of opposed fingers, and whether they oppose."""
-    return tuple(
-        measurement
-        for key, each, angle, opposed in (
-            ("printed", printed, 2 * SPLAY, 0),
-            ("ours", foot, 0.0, 1),
-        )
-        for measurement in (
-            *(
-                Measurement(
-                    f"planes_{first}{second}_{key}",
-                    f"angle between the planes of fingers {first} and {second}, {key}",
-                    plane_angle(each, (first, second)),
-                    equal(angle, EXACT, "difference of the azimuths"),
-                    unit="rad",
-                )
-                for first, second in OPPOSED
-            ),
-            Measurement(
-                f"opposed_{key}",
-                f"whether fingers 1 and 3 are an opposable pair, {key}: 1 if so",
-                int((0, 2) in each.opposable_pairs),
-                equal(opposed, 0, "signs of the azimuths' cosines"),
-            ),
-        )
+    return (
+        *_planes_of(printed, "printed", 2 * SPLAY, opposed=0),
+        *_planes_of(foot, "ours", 0.0, opposed=1),
     )
+
+
+def _planes_of(
+    foot: Foot, key: str, angle: float, *, opposed: int
+) -> tuple[Measurement, ...]:
+    """The same of one foot."""
+    angles = (
+        Measurement(
+            f"planes_{first}{second}_{key}",
+            f"angle between the planes of fingers {first} and {second}, {key}",
+            plane_angle(foot, (first, second)),
+            equal(angle, EXACT, "difference of the azimuths"),
+            unit="rad",
+        )
+        for first, second in OPPOSED
+    )
+    pair = Measurement(
+        f"opposed_{key}",
+        f"whether fingers 1 and 3 are an opposable pair, {key}: 1 if so",
+        int((0, 2) in foot.opposable_pairs),
+        equal(opposed, 0, "signs of the azimuths' cosines"),
+    )
+    return (*angles, pair)
 
 
 def _sides(foot: Foot, printed: Foot) -> tuple[Measurement, ...]:

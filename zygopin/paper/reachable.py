@@ -119,7 +119,7 @@ def proposition_1() -> Entry:
         place="section 3, proposition 1",
         printed=r"$R_k = e^{-i\omega v_0} F^k(\{x_0\})$; "
         r"$R_\infty = e^{-i\omega v_0} R$, with $R_\infty$ the closure of $\bigcup "
-        r"R_k$",
+        "R_k$",
         ours=r"$R_k = e^{-iv_0} F^k(\{x_0\})$; $R_\infty = \lim R_k$ in the Hausdorff "
         r"metric",
         finding=(
@@ -132,9 +132,9 @@ def proposition_1() -> Entry:
             Exhibit(
                 "convergence.png",
                 r"Some of $R_1, \dots, R_8$ for three levels (red) over $R_9$ (grey). "
-                r"Below, dots: Hausdorff distance to $R_9$; bars: the most that "
-                r"remains "
-                "from there to the limit; line: the exact distance to the limit.",
+                "Below, dots: Hausdorff distance to $R_9$; bars: the most that "
+                "remains from there to the limit; line: the exact distance to the "
+                "limit.",
                 _draw_convergence,
             ),
         ),
@@ -156,19 +156,18 @@ def erratum_5() -> Entry:
         ours=r"$R_\infty = \lim_k R_k$ in the Hausdorff metric",
         finding=(
             "Finite sums are tips of short fingers: they need not lie on the "
-            r"attractor. With $R = \{0\}$ the union is the partial sums of "
-            r"$\rho^{-1} + \rho^{-2} + \dots$ and the attractor one point. The base "
-            r"$x_0 = 0$, which is in the union, is far from every tip of an endless "
-            r"finger. With $R = \{0, 1\}$ none of the sums of up to four phalanges is "
-            r"on the attractor; with $R = [0, 1]$ some are."
+            r"attractor. With $R = \{0\}$ the union is the partial sums of $\rho^{-1} "
+            r"+ \rho^{-2} + \dots$ and the attractor one point. The base $x_0 = 0$, "
+            "which is in the union, is far from every tip of an endless finger. With "
+            r"$R = \{0, 1\}$ none of the sums of up to four phalanges is on the "
+            "attractor; with $R = [0, 1]$ some are."
         ),
         measurements=(*_base_off(), _sums_off(), _sum_on()),
         figures=(
             Exhibit(
                 "erratum-5.png",
                 rf"The attractor for $R = \{{0, 1\}}$ (grey) and the sums of 0 to "
-                rf"{FINITE} "
-                "phalanges (red), all of which the printed closure has.",
+                f"{FINITE} phalanges (red), all of which the printed closure has.",
                 _draw_finite_sums,
             ),
         ),
@@ -291,7 +290,7 @@ def _sum_on() -> Measurement:
     answer = find_word(tip, interval, LONG_DEPTH, tolerance=CLOSE)
     return Measurement(
         "sum_on",
-        rf"$R = [0, 1]$: distance of the sum with controls {', '.join(map(str, ON))} "
+        f"$R = [0, 1]$: distance of the sum with controls {', '.join(map(str, ON))} "
         "from the attractor, at most",
         answer.distance + interval.tail(LONG_DEPTH),
         at_most(CLOSE, f"a word of {LONG_DEPTH} controls"),

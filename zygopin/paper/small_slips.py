@@ -31,11 +31,10 @@ def smaller_slips() -> Entry:
         place="throughout",
         printed=(
             "a contraction has $d(f(x), f(y)) < c\\,d(x, y)$ for every x and y; the "
-            "angle between phalanges is in $[\\pi-\\omega, \\pi]$ and "
-            "$\\omega \\in (0, 2\\pi)$; in $R_k$ the index of $v_n \\in R$ starts at "
-            "0; “$u_j \\in E$”; $\\sum_i$ over terms in j; levels $r_0, a_1, \\dots, "
-            "r_n$; R both for the control set and for the attractor; the engagement in "
-            "figure 6 (A)"
+            "angle between phalanges is in $[\\pi-\\omega, \\pi]$ and $\\omega \\in "
+            "(0, 2\\pi)$; in $R_k$ the index of $v_n \\in R$ starts at 0; “$u_j \\in "
+            "E$”; $\\sum_i$ over terms in j; levels $r_0, a_1, \\dots, r_n$; R both "
+            "for the control set and for the attractor; the engagement in figure 6 (A)"
         ),
         ours=(
             "$\\leq$ in place of <; for $\\omega > \\pi$ the inner angle goes down to "
@@ -45,12 +44,10 @@ def smaller_slips() -> Entry:
         ),
         finding=(
             "The strict inequality fails for $x = y$, and for the paper's own maps "
-            "with "
-            r"$c = 1/\rho$, which shrink every distance by exactly $\rho$. If $v_0$ "
-            r"ranged over $R$ as printed, $R_1$ for $R = \{0, 1\}$ would have a third "
-            r"point. A joint that turns by more than $\pi$ folds its phalanx past the "
-            r"one "
-            "before."
+            r"with $c = 1/\rho$, which shrink every distance by exactly $\rho$. If "
+            r"$v_0$ ranged over $R$ as printed, $R_1$ for $R = \{0, 1\}$ would have a "
+            r"third point. A joint that turns by more than $\pi$ folds its phalanx "
+            "past the one before."
         ),
         measurements=(_strictness(), _free_start(), _past_the_fold()),
     )

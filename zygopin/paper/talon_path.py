@@ -50,9 +50,9 @@ def figure_7() -> Entry:
         scenes=(
             Exhibit(
                 "figure-7.html",
-                "The paper's foot, its first phalanx 0.618 long, comes down on a "
-                "ball of radius 0.1 under toe 3. All controls then follow v(t), and "
-                "the toes pass through the ball: the reading “paper”.",
+                "The paper's foot, its first phalanx 0.618 long, comes down on a ball "
+                "of radius 0.1 under toe 3. All controls then follow v(t), and the "
+                "toes pass through the ball: the reading “paper”.",
                 _write_paper_strike,
             ),
         ),
@@ -72,8 +72,7 @@ def _talon(foot: Foot) -> tuple[Measurement, ...]:
     return (
         by_hand(
             "straight",
-            r"distance of the talon from the base at $v=0$: "
-            r"$(1-\rho^{-5})/(\rho-1)$",
+            r"distance of the talon from the base at $v=0$: $(1-\rho^{-5})/(\rho-1)$",
             float(path[0].real),
             (1 - POWER[5]) / (foot.rho - 1),
         ),

@@ -99,20 +99,20 @@ def tangency_system() -> Entry:
         printed=SYSTEM,
         ours=(
             r"$\phi(t)=\gamma(\theta)$, "
-            r"$\text{arg}(\phi(1)-\phi(0))=\text{arg}\,\dot\gamma(\theta)$ "
-            r"modulo $\pi$, $\theta\in[0,2\pi)$, $t\in[0,1]$"
+            r"$\text{arg}(\phi(1)-\phi(0))=\text{arg}\,\dot\gamma(\theta)$ modulo "
+            r"$\pi$, $\theta\in[0,2\pi)$, $t\in[0,1]$"
         ),
         finding=(
-            "For branches with their axes at $x=0$ and the base outside, all solutions "
-            f"for fingers 1 and 3 are listed, {LEVELS} levels of each control, by "
-            "linear equations seen along the branch. A family, in which one parameter "
-            "stays free, counts once, by one of its branches. On each of them the "
-            "corrected system is solved in the finger's "
-            r"plane: parallelism leaves two $\theta$, and incidence then one $t$. It "
-            "has a solution wherever the exact engine and FCL find a tangency. "
-            "Conversely, where a phalanx is not tangent, what is "
-            "left of incidence is at least its distance from the bark, for it joins "
-            "a point of the bone to a point of the bark, or two parallel lines."
+            "For branches with their axes at $x=0$ and the base outside, all "
+            f"solutions for fingers 1 and 3 are listed, {LEVELS} levels of each "
+            "control, by linear equations seen along the branch. A family, in which "
+            "one parameter stays free, counts once, by one of its branches. On each "
+            "of them the corrected system is solved in the finger's plane: "
+            r"parallelism leaves two $\theta$, and incidence then one $t$. It has a "
+            "solution wherever the exact engine and FCL find a tangency. Conversely, "
+            "where a phalanx is not tangent, what is left of incidence is at least "
+            "its distance from the bark, for it joins a point of the bone to a point "
+            "of the bark, or two parallel lines."
         ),
         measurements=(*_solutions(cases), *_no_solutions(cases)),
     )

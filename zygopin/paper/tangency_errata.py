@@ -48,8 +48,7 @@ def erratum_6() -> Entry:
         place=f"{PLACE}, system (3)",
         printed=r"$\text{arg}(\phi(t;(v_k),k))=\text{arg}(\dot\gamma(\theta))$",
         ours=(
-            r"$\text{arg}(\phi(1)-\phi(0))=\text{arg}\,\dot\gamma(\theta)$ "
-            r"modulo $\pi$"
+            r"$\text{arg}(\phi(1)-\phi(0))=\text{arg}\,\dot\gamma(\theta)$ modulo $\pi$"
         ),
         finding=(
             r"$\phi(t)$ is a position; its argument is the direction from the base to "
@@ -152,9 +151,9 @@ def erratum_7() -> Entry:
         finding=(
             r"$\omega$ is a parameter of the foot, here $\pi/6$; the unknown that "
             r"needs a range is $\theta$. It needs a whole turn: some contacts are on "
-            r"the lower half of the branch. The tangents at $\theta$ and "
-            r"$\theta+\pi$ are parallel, and the phalanx reaches only one of them, "
-            r"so that there is one $\theta$ in the range for each tangent phalanx."
+            r"the lower half of the branch. The tangents at $\theta$ and $\theta+\pi$ "
+            "are parallel, and the phalanx reaches only one of them, so that there is "
+            r"one $\theta$ in the range for each tangent phalanx."
         ),
         measurements=(
             Measurement(

@@ -66,9 +66,8 @@ def tlm_map() -> Entry:
             "closes after $T$."
         ),
         ours=(
-            r"Three modes: FREE, CLOSING with "
-            r"$x_k=\sum_{j=1}^{k}\rho^{-j}e^{-i\omega jv(t-t^*)}$ from the first "
-            r"contact $t^*$ on, LOCKED after the time $T$."
+            r"Three modes: FREE, CLOSING with $x_k=\sum_{j=1}^{k}\rho^{-j}e^{-i\omega "
+            "jv(t-t^*)}$ from the first contact $t^*$ on, LOCKED after the time $T$."
         ),
         finding=(
             "With the sum to k and each toe in its own plane, the closing mode is that "
@@ -136,8 +135,8 @@ def _modes(foot: Foot, strike: StrikeTrajectory) -> tuple[Measurement, ...]:
         ),
         rounding(
             "strike",
-            f"largest distance, in {closing.sum()} closing instants, from the sum to k "
-            r"with $v=3s^2-2s^3$, $s=(t-t^*)/T$",
+            f"largest distance, in {closing.sum()} closing instants, from the sum to "
+            "k with $v=3s^2-2s^3$, $s=(t-t^*)/T$",
             float(np.abs(bones[closing][..., 1, :] - expected).max()),
         ),
         Measurement(

@@ -53,10 +53,9 @@ def erratum_10() -> Entry:
         ),
         finding=(
             r"Printed, $x_0$ is not the base: it lies $1/\rho$ away and moves on an "
-            r"arc as $v$ grows. A toe of $K$ phalanges gets $K+1$, and the segment "
-            r"from the origin to $x_1$, called the first phalanx, spans two. Without "
-            r"$v_0$ a "
-            "back toe points forward. The sum to k agrees with system (1)."
+            "arc as $v$ grows. A toe of $K$ phalanges gets $K+1$, and the segment "
+            "from the origin to $x_1$, called the first phalanx, spans two. Without "
+            "$v_0$ a back toe points forward. The sum to k agrees with system (1)."
         ),
         measurements=_one_too_many(Foot.preset("paper")),
     )
@@ -77,9 +76,8 @@ def erratum_12() -> Entry:
         ours=r"$v(t)\in[0,1]$, as the text says; $\omega v(t)\in[0,\pi/6]$.",
         finding=(
             r"The angle is $\omega v$ with $\omega=\pi/6$. If $v$ itself ended at "
-            r"$\pi/6$, the last phalanx of toe 4 would turn by "
-            r"$5(\pi/6)^2=78.5°$ and not by 150°: the talon would end 1.166 ahead "
-            "of the base, not 0.575."
+            r"$\pi/6$, the last phalanx of toe 4 would turn by $5(\pi/6)^2=78.5°$ and "
+            "not by 150°: the talon would end 1.166 ahead of the base, not 0.575."
         ),
         measurements=_two_ranges(Foot.preset("paper")),
         figures=(
@@ -112,29 +110,28 @@ def _one_too_many(foot: Foot) -> tuple[Measurement, ...]:
         ),
         by_hand(
             "base_moves",
-            r"distance of the printed $x_0$ at $v=1$ from that at $v=0$: "
+            "distance of the printed $x_0$ at $v=1$ from that at $v=0$: "
             r"$2\sin(\omega/2)/\rho$",
             float(abs(base[-1] - base[0])),
             2 * math.sin(PAPER_TURN / 2) / foot.rho,
         ),
         by_hand(
             "first_phalanx",
-            r"length of the printed $P=[0,x_1]$ at $v=1$: "
+            "length of the printed $P=[0,x_1]$ at $v=1$: "
             r"$\sqrt{\rho^{-2}+2\rho^{-3}\cos\omega+\rho^{-4}}$",
             float(abs(first[-1])),
             math.sqrt(POWER[2] + 2 * POWER[3] * ROOT + POWER[4]),
         ),
         by_hand(
             "printed_length",
-            r"x of toe 4's straight tip, printed: "
-            r"$(1-\rho^{-6})/(\rho-1)$, forward",
+            r"x of toe 4's straight tip, printed: $(1-\rho^{-6})/(\rho-1)$, forward",
             float(last[0].real),
             (1 - POWER[5] / foot.rho) / (foot.rho - 1),
         ),
         by_hand(
             "our_length",
-            r"x of toe 4's straight tip, ours: $-\cos\Omega\,(1-\rho^{-5})/"
-            r"(\rho-1)$, back",
+            r"x of toe 4's straight tip, ours: $-\cos\Omega\,(1-\rho^{-5})/(\rho-1)$, "
+            "back",
             float(tip[0]),
             -math.cos(math.pi / 12) * length,
         ),

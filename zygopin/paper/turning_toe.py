@@ -36,9 +36,9 @@ def erratum_14() -> Entry:
         finding=(
             "Finger 3 points forward already: it cannot be turned to the front. The "
             "toe that owls turn is digit IV, finger 4 in the paper's count. Read as "
-            "“one more toe, the third in front”, the sentence is right: two toes "
-            "point forward in one pose and three in the other. Three in front and one "
-            "behind is what anatomists call anisodactyl."
+            "“one more toe, the third in front”, the sentence is right: two toes point "
+            "forward in one pose and three in the other. Three in front and one behind "
+            "is what anatomists call anisodactyl."
         ),
         measurements=(
             Measurement(

@@ -67,9 +67,9 @@ def figure_2() -> Entry:
         figures=(
             Exhibit(
                 "figure-2.png",
-                "The foot from above, forward up and left to the left: straight "
-                "toes with their junctions, ρ = 1.2. Numbers beside the phalanges are "
-                "their lengths $1.2^{-k}$. The longest toe measures 2.991.",
+                "The foot from above, forward up and left to the left: straight toes "
+                "with their junctions, ρ = 1.2. Numbers beside the phalanges are their "
+                "lengths $1.2^{-k}$. The longest toe measures 2.991.",
                 _draw_foot,
             ),
         ),
@@ -88,8 +88,8 @@ def opposable_fingers() -> Entry:
         title="Coplanar and opposable fingers",
         place="section 4",
         printed=(
-            "The planes of the fingers are orthogonal to the xy-plane. Fingers 1 and "
-            "3 are coplanar, and fingers 2 and 4; the fingers oppose in pairs."
+            "The planes of the fingers are orthogonal to the xy-plane. Fingers 1 and 3 "
+            "are coplanar, and fingers 2 and 4; the fingers oppose in pairs."
         ),
         ours="",
         finding=(
@@ -115,8 +115,8 @@ def _shared_planes(foot: Foot) -> tuple[Measurement, ...]:
         *(
             rounding(
                 f"apart_{first}{second}_{key}",
-                f"largest distance of a junction of fingers {first} and {second} "
-                f"from their common plane, {RANDOM} random controls, {route}",
+                f"largest distance of a junction of fingers {first} and {second} from "
+                f"their common plane, {RANDOM} random controls, {route}",
                 off_plane(foot, bones, (first, second)),
             )
             for key, (route, bones) in routes.items()
@@ -135,8 +135,8 @@ def _shared_planes(foot: Foot) -> tuple[Measurement, ...]:
         ),
         Measurement(
             "wrong_pairs",
-            "pairs on which the list, the four above, and the sides of the tips "
-            "in forward_kinematics disagree",
+            "pairs on which the list, the four above, and the sides of the tips in "
+            "forward_kinematics disagree",
             len((listed ^ PAIRS) | (listed ^ seen)),
             equal(0, 0, "the four pairs"),
         ),

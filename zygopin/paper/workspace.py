@@ -105,10 +105,9 @@ def figure_3() -> Entry:
         ours="",
         finding=(
             "The paper justifies the discretisation by continuity of the attractor in "
-            "the "
-            r"control set. Here the error has a number: with step $h$ between levels, "
-            r"$d_H \leq \frac{\omega h}{2} \sum_{j \leq 4} j \rho^{-j}$, and random "
-            "controls keep to it."
+            "the control set. Here the error has a number: with step $h$ between "
+            r"levels, $d_H \leq \frac{\omega h}{2} \sum_{j \leq 4} j \rho^{-j}$, and "
+            "random controls keep to it."
         ),
         measurements=(
             *_extent(reaches["30"]),
@@ -118,9 +117,8 @@ def figure_3() -> Entry:
         figures=(
             Exhibit(
                 "figure-3.png",
-                rf"Density of $R_4$ of finger 3, {LEVELS} levels of each control, in "
-                rf"the "
-                r"finger's plane: left $\omega = \pi/12$, right $\omega = \pi/6$.",
+                f"Density of $R_4$ of finger 3, {LEVELS} levels of each control, in "
+                r"the finger's plane: left $\omega = \pi/12$, right $\omega = \pi/6$.",
                 _draw_reaches,
             ),
         ),
@@ -184,7 +182,7 @@ def _continuity(reach: FingerReach) -> tuple[Measurement, ...]:
         Measurement(
             "random",
             f"farthest that {SAMPLES} random controls stray from the {LEVELS} levels' "
-            f"set",
+            "set",
             directed_distance(tips, reach.points).value,
             at_most(reach.grid_bound, f"{bound}, {LEVELS} levels"),
         ),

@@ -43,7 +43,7 @@ def erratum_8() -> Entry:
         finding=(
             "The two differ where the phalanges are perpendicular. Worked by hand: "
             r"with $\omega=\pi/2$, $\Omega=0$, finger 1 straight and controls 0, 1, 0, "
-            r"0 for finger 3, the branch of radius 0.65 with its centre at "
+            "0 for finger 3, the branch of radius 0.65 with its centre at "
             r"$x=1/\rho-0.65$, $z=-0.65$ touches finger 1 from below and the last "
             "phalanx of finger 3, which hangs down, on its inner side. Nothing enters "
             "it. By the definition this is a grasp, by the formula it is none. (The "
