@@ -37,6 +37,7 @@ def test_an_entry_holds_where_all_its_numbers_do():
     bad = Measurement("b", "words", 3.0, at_most(2.0, "x"))
     stated = Measurement("c", "words", 3.0)
     assert entry("one", good, stated).holds
+    assert entry("one", good, stated).judged == (good,)
     assert not entry("two", good, bad).holds
 
 

@@ -50,10 +50,10 @@ def test_angles_are_shown_in_degrees():
 
 def test_a_number_that_fails_is_shown_to_fail():
     bad = Measurement("a", "words", 3.0, at_most(2.0, "x"))
-    text = page(report(bad), {})
+    text = page(report(bad, Measurement("b", "words", 3.0)), {})
     assert "✗ fails" in text
     assert '<p class="verdict bad">' in text
-    assert "0\nof 1 entries hold" in text
+    assert "0\nof 1 entries hold,\n0 of\n1 numbers are as they must be." in text
     good = Measurement("a", "words", 1.0, at_most(2.0, "x"))
     assert '<p class="verdict good">' in page(report(good), {})
 

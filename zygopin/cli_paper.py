@@ -53,8 +53,7 @@ def _print(report: PaperReport) -> None:
         (
             entry.label,
             entry.title,
-            f"{sum(each.holds for each in entry.measurements)} of "
-            f"{len(entry.measurements)}",
+            f"{sum(each.holds for each in entry.judged)} of {len(entry.judged)}",
             "yes" if entry.holds else "no",
         )
         for entry in report.entries

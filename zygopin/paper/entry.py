@@ -135,9 +135,14 @@ class Entry:
         return int(last) if last.isdigit() else None
 
     @property
+    def judged(self) -> tuple[Measurement, ...]:
+        """The numbers that are held against something."""
+        return tuple(each for each in self.measurements if each.reference is not None)
+
+    @property
     def holds(self) -> bool:
         """Whether every number is as it must be."""
-        return all(each.holds for each in self.measurements)
+        return all(each.holds for each in self.judged)
 
 
 def equal(value: float, tolerance: float, route: str) -> Reference:
