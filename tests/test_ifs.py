@@ -92,6 +92,15 @@ def test_contractions_shrink_by_rho(one, other, control, rho, omega):
     assert gap == pytest.approx(abs(one - other) / rho, abs=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("control", "image"),
+    [(0, 1 + 0.5j), (1, 0.5 - 1j), ([0, 1], [1 + 0.5j, 0.5 - 1j])],
+)
+def test_contractions_by_hand(control, image):
+    # One length on from 1 + i lies 2 + i: half of it, as it is or a quarter turn down.
+    assert contraction(1 + 1j, control, 2, math.pi / 2) == pytest.approx(image)
+
+
 @LAWS
 @given(reals(1.01, 4), omegas(), level_sets(), st.integers(1, 3))
 def test_the_operator_makes_the_next_set(rho, omega, levels, depth):
@@ -135,10 +144,10 @@ def test_the_grid_bound_by_hand():
 @pytest.mark.parametrize("block", [1, 5, 7, 30, 10_000])
 def test_blocks_are_the_set_in_pieces(block):
     reachable = reachable_set(1.5, 2.0, 5, 4, orientation=0.3)
-    at = 0
+    at, sizes = 0, [5**depth for depth in range(5)]
     for indices, points in iter_reachable(reachable.system, 4, block=block):
         assert indices.start == at
-        assert len(points) == len(indices) <= block
+        assert len(points) == len(indices) == max(n for n in sizes if n <= block)
         part = reachable.points[indices.start : indices.stop]
         assert np.abs(points - part).max() < 1e-14
         at = indices.stop
@@ -156,6 +165,24 @@ def test_the_attractor_s_depth_is_the_smallest(rho, tolerance):
 def test_the_attractor_keeps_its_tolerance():
     reachable = attractor(PHI, 1.0, 2, 0.02)
     assert reachable.depth_bound <= 0.02 < PHI * reachable.depth_bound
+
+
+@pytest.mark.parametrize("given_orientation", [{}, {"orientation": 0.3}])
+def test_the_attractor_is_the_reachable_set_of_its_depth(given_orientation):
+    found = attractor(PHI, 1.0, 2, 0.02, **given_orientation)
+    expected = reachable_set(PHI, 1.0, 2, found.depth, **given_orientation)
+    assert (found.points == expected.points).all()
+
+
+def test_as_many_words_are_streamed_as_an_index_can_count():
+    system = ControlSystem(2, math.pi / 2, 2)
+    indices, points = next(iter_reachable(system, 62, block=4))
+    assert indices == range(4)
+    straight = 1 - 2.0**-60  # a tail of two phalanges follows
+    tail = [3 / 4, 1 / 2 - 1j / 4, -3j / 4, -1j / 2 - 1 / 4]
+    assert points == pytest.approx(straight + 2.0**-60 * np.array(tail))
+    with pytest.raises(ParameterError, match="number of words = 9223372036854775808 "):
+        iter_reachable(system, 63)
 
 
 def test_a_large_set_takes_no_more_memory_than_its_points():
@@ -185,8 +212,16 @@ def test_results_are_read_only():
         ({"depth": 0}, "depth = 0 is not an integer from 1 to 1000"),
         ({"depth": -2}, "depth = -2"),
         ({"orientation": math.inf}, "orientation = inf"),
-        ({"depth": 20}, r"number of words = .* is not at most"),
-        ({"depth": 9}, r"\[bytes\] = 742583750431248 .*: stream them with iter_reach"),
+        (
+            {"depth": 20},
+            "number of words = [0-9]{31} is not at most [0-9]*: take fewer levels or "
+            "phalanges, or draw the set as a raster$",
+        ),
+        (
+            {"depth": 9},
+            r"memory for 46411484401953 points \[bytes\] = 742583750431248 "
+            "is not at most [0-9]*: stream them with iter_reachable",
+        ),
         ({"max_bytes": 100}, r"\[bytes\] = 17424 is not at most 100"),
     ],
 )
@@ -195,6 +230,10 @@ def test_bad_input_is_named(change, message):
     with pytest.raises(ParameterError, match=message) as caught:
         reachable_set(**given_values)
     assert "\n" not in str(caught.value)
+
+
+def in_two_levels(points):
+    return hutchinson(points, 2, PHI, 1.0)
 
 
 def test_other_bad_input_is_named():
@@ -207,9 +246,19 @@ def test_other_bad_input_is_named():
         reachable.words([0.5])
     with pytest.raises(ParameterError, match="levels = None is not a finite"):
         iter_reachable(ControlSystem(PHI, 1.0), 2)
-    with pytest.raises(ParameterError, match=r"points\[0\] = .*nan"):
-        contraction([math.nan], 0.5, PHI, 1.0)
-    with pytest.raises(ParameterError, match=r"control = 2.0 is not in"):
+    for block in (0, 2**40 + 1):
+        message = f"^block = {block} is not an integer from 1 to {2**40}"
+        with pytest.raises(ParameterError, match=message):
+            iter_reachable(reachable.system, 2, block=block)
+    for given_points in (lambda x: contraction(x, 0.5, PHI, 1.0), in_two_levels):
+        with pytest.raises(ParameterError, match=r"^points\[0\] = .*nan"):
+            given_points([math.nan])
+    with pytest.raises(
+        ParameterError,
+        match=r"^control = 2.0 is not in \[0, 1\]: 0 is the straight joint, 1 the fu",
+    ):
         contraction(1j, 2, PHI, 1.0)
+    with pytest.raises(ParameterError, match=r"^control = 'half' is not an array"):
+        contraction(1j, "half", PHI, 1.0)
     with pytest.raises(ParameterError, match="tolerance = 0"):
         attractor(PHI, 1.0, 2, 0)

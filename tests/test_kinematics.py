@@ -296,7 +296,9 @@ def test_bad_controls_are_one_line(controls, message):
 
 
 def test_an_unknown_finger_is_refused_with_a_suggestion():
-    with pytest.raises(UnknownNameError, match="'finger5': did you mean 'finger"):
+    with pytest.raises(
+        UnknownNameError, match=r"^unknown finger 'finger5': did you mean 'f"
+    ):
         forward_kinematics(PARROT, changed(finger5=[0.0]))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from typing import Any, Literal, NamedTuple
@@ -145,9 +146,8 @@ class GraspReport:
             The largest |difference| over branch and finger clearances [m].
         """
         apart = np.abs(self.clearance - other.clearance)
-        both = np.isfinite(self.finger_clearance) & np.isfinite(other.finger_clearance)
-        ours, theirs = self.finger_clearance[both], other.finger_clearance[both]
-        fingers = ours - theirs
+        some = np.isfinite(self.finger_clearance)  # infinite without a second finger
+        fingers = self.finger_clearance[some] - other.finger_clearance[some]
         return float(max(apart.max(initial=0.0), np.abs(fingers).max(initial=0.0)))
 
 
@@ -185,7 +185,7 @@ def check_grasp(
     check_branch(foot, branch)
     shapes = values.shape[:-1], branch.batch_shape
     batch = checks.common_batch("controls and branch", *shapes)
-    count = int(np.prod(batch, dtype=int))
+    count = math.prod(batch)
     if count <= BLOCK:
         return _report(foot, values, branch, made, criteria)
     parts = []
