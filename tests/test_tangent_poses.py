@@ -15,7 +15,7 @@ from zygopin.clearance import branch_clearance
 from zygopin.kinematics import forward_kinematics
 from zygopin.laid_contact import lay_on
 from zygopin.projection import BACK, PALM
-from zygopin.tangent_poses import TangentPoses, tangent_poses
+from zygopin.tangent_poses import FEW, TangentPoses, tangent_poses
 
 Y = np.array([0.0, 1.0, 0.0])
 
@@ -115,7 +115,9 @@ def test_similar_feet_lie_alike(factor):
 
 
 FOOT = one_finger(4, 0.2, rho=1.2, omega=1.0, thickness=0.05)
-GRID = BranchGrid(np.linspace(-0.2, -1.4, 6), np.linspace(0.05, 0.8, 5), (0, 1, 0.2))
+HEIGHTS, RADII = np.linspace(-0.2, -1.4, 41), np.linspace(0.05, 0.8, 41)
+GRID = BranchGrid(HEIGHTS[::8], RADII[::10], (0, 1, 0.2))
+FINE = BranchGrid(HEIGHTS, RADII, (0, 1, 0.2))
 
 
 def poses(grid=GRID, **options):
@@ -124,9 +126,10 @@ def poses(grid=GRID, **options):
     return tangent_poses(finger, grid, wanted, **options)
 
 
+@pytest.mark.parametrize("grid", [GRID, FINE], ids=["few", "many"])
 @pytest.mark.parametrize("options", [{}, {"solid": False}, {"side": BACK}])
-def test_poses_found_on_a_grid_are_tangent_in_space(options):
-    found = poses(**options)
+def test_poses_found_on_a_grid_are_tangent_in_space(options, grid):
+    found = poses(grid, **options)
     for rank in range(1, 5):
         cells = np.nonzero(np.isfinite(found.wrap[rank - 1]))
         controls = found.controls[rank - 1][cells]
@@ -134,9 +137,18 @@ def test_poses_found_on_a_grid_are_tangent_in_space(options):
         assert (controls[:, rank:] == 0).all()
         solid = options.get("solid", True)
         if len(cells[0]):
-            assert_tangent(FOOT, controls, GRID.at(*cells), rank, solid=solid)
+            assert_tangent(FOOT, controls, grid.at(*cells), rank, solid=solid)
     assert np.isfinite(found.wrap).any()
-    assert np.isnan(found.wrap[:, ~GRID.valid]).all()
+    assert np.isnan(found.wrap[:, ~grid.valid]).all()
+
+
+def test_the_search_from_coarse_to_fine_misses_next_to_nothing():
+    assert FINE.valid.sum() > FEW  # so that it begins on a coarser grid
+    few, many = poses().wrap, poses(FINE).wrap[:, ::8, ::10]
+    both = np.isfinite(few) & np.isfinite(many)
+    assert both.sum() > 30
+    assert (np.isfinite(few) != np.isfinite(many)).sum() <= 1
+    assert np.abs(few - many)[both].max() < 0.15  # neither search is exhaustive
 
 
 def test_the_best_pose_is_that_of_some_phalanx_nearest_to_the_aim():
