@@ -355,6 +355,28 @@ def test_a_bone_along_the_axis_has_a_normal_too():
         assert found["distance"] == pytest.approx(-0.5)
 
 
+@pytest.mark.parametrize(("slope", "t"), [(1e-11, 2e11), (1e-7, 2e7), (1e-13, 0.5)])
+def test_a_bone_is_parallel_to_the_axis_up_to_rounding_only(slope, t):
+    # It sinks towards an axis 2 below, which its line meets 2 / slope further on.
+    found = one_clearance([(0, 0, 0), (0, 1, -slope)], Branch(1, (0, 0, -2)))
+    assert found["t"] == pytest.approx(t)
+    assert found["distance"] == pytest.approx(1 - slope * min(t, 1), abs=1e-15)
+
+
+def test_a_bone_just_off_a_thin_axis_has_the_normal_of_its_side():
+    branch = Branch(1e-3, (0, 0, -2))
+    for side in (1e-11, -1e-11):
+        found = one_clearance([(side, 0, -1), (side, 0, -3)], branch)
+        assert found["normal"] == pytest.approx((math.copysign(1, side), 0, 0))
+
+
+def test_a_short_bone_nearly_along_the_axis_has_a_normal_across_both():
+    # The bone leaves the axis in the plane of x and y, so z is across both.
+    bone = [(0, 0, -2), (1e-10, 1e-3, -2)]
+    found = one_clearance(bone, Branch(1, (0, 0, -2)))
+    assert np.abs(found["normal"]) == pytest.approx((0, 0, 1))
+
+
 # Batches -------------------------------------------------------------------------
 
 

@@ -13,7 +13,12 @@ from strategies import controls_for, feet, reals
 
 from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.foot import Finger, Foot
-from zygopin.kinematics import as_controls, by_finger, forward_kinematics
+from zygopin.kinematics import (
+    as_controls,
+    by_finger,
+    forward_kinematics,
+    read_controls,
+)
 
 PARROT = Foot.preset("parrot")
 
@@ -203,10 +208,14 @@ def test_bones_may_be_written_to_an_array_there_is(azimuths):
     ("out", "words"),
     [
         (np.empty((14, 2, 3)), r"out.shape = \(14, 2, 3\).*\(5, 14, 2, 3\)"),
-        (np.empty((5, 14, 2, 3), np.float32), r"out = float32.*float64, in C order"),
+        (
+            np.empty((5, 14, 2, 3), np.float32),
+            r"^out = .*float32.* is not of float64, in C order, and writeable: make it "
+            r"with numpy.empty$",
+        ),
         (np.empty((5, 14, 2, 3), order="F"), "in C order"),
         (np.broadcast_to(0.0, (5, 14, 2, 3)), "writeable"),
-        ([[0.0]], "ndarray"),
+        ([[0.0]], "^out = 'list' is not a ndarray"),
     ],
 )
 def test_an_array_that_cannot_be_written_to_is_refused(out, words):
@@ -263,6 +272,14 @@ def test_controls_are_copied():
     controls = as_controls(PARROT, values)
     controls[0] = 1.0
     assert values[0] == 0.0
+
+
+@pytest.mark.parametrize("batch", [(), (3,), (2, 3)])
+def test_controls_that_are_fine_are_read_where_they_are(batch):
+    values = np.zeros((*batch, 14))
+    values[..., 0] = 1.0
+    assert read_controls(PARROT, values) is values
+    assert as_controls(PARROT, values) is not values
 
 
 def changed(**values):
