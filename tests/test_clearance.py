@@ -156,6 +156,13 @@ def test_segment_distance_by_hand(other, distance):
     assert segment_distance(one, np.array(other, float)) == pytest.approx(distance)
 
 
+@pytest.mark.parametrize("slope", [1e-3, 1e-5, 5e-8])
+def test_segments_that_cross_at_a_small_angle_meet(slope):
+    one = np.array([(-0.5, 0, 0), (0.5, 0, 0)])
+    other = np.array([(-0.5, -slope / 2, 0), (0.5, slope / 2, 0)])
+    assert segment_distance(one, other) < slope / 5
+
+
 def test_skin_distance_takes_both_skins_off():
     bones = np.array([[(0, 0, 0), (1, 0, 0)], [(0, 3, 0), (1, 3, 0)]], float)
     pair = (np.array([0]), np.array([1]))

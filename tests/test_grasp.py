@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import math
 from functools import cache
@@ -449,6 +450,20 @@ def test_a_tolerance_above_a_tenth_of_the_foot_is_refused():
     message = "^tolerance = 0.5 is not at most .* m, 10% of the foot: a contact is a t"
     with pytest.raises(ParameterError, match=message):
         Criteria(tolerance=0.5).metres(PARROT)
+
+
+@pytest.mark.parametrize(
+    ("radius", "height", "judged"),
+    [(4.9e5, 5e5, True), (5.1e5, 5.2e5, False), (1.1e-6, 1, True), (9e-7, 1, False)],
+)
+def test_branches_are_judged_from_a_millionth_to_a_million_of_the_foot(
+    radius, height, judged
+):
+    size = PARROT.size
+    branch = Branch(radius * size, (0, 0, -height * size))
+    refused = contextlib.nullcontext() if judged else pytest.raises(ParameterError)
+    with refused:
+        check_grasp(PARROT, np.zeros(14), branch)
 
 
 @pytest.mark.parametrize(

@@ -56,6 +56,8 @@ def test_the_reference_set_of_finger_3():
     reachable = reachable_set(PHI, math.pi / 6, 33, 4)
     points = reachable.points
     assert points.shape == (1_185_921,)
+    parameters = reachable.rho, reachable.omega, reachable.orientation
+    assert parameters == (PHI, math.pi / 6, 0)
     assert points.real.min() == pytest.approx(0.653267, abs=1e-6)
     assert points.real.max() == pytest.approx(1.381966, abs=1e-6)
     assert points.imag.min() == pytest.approx(-1.021775, abs=1e-6)
@@ -71,6 +73,7 @@ def test_each_point_is_the_tip_of_its_word(data):
     levels, depth = data.draw(levels), data.draw(st.integers(1, 5))
     turn = data.draw(reals(-7, 7))
     reachable = reachable_set(rho, omega, levels, depth, orientation=turn)
+    assert reachable.orientation == turn
     controls = reachable.words(np.arange(len(reachable.points)))
     assert controls.shape == (len(as_levels(levels)) ** depth, depth)
     tips = chain(rho, omega, controls, turn)
