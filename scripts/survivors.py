@@ -38,11 +38,8 @@ EQUIVALENT = (
     (r"radius > thin, least,", "reached only where the extent is refused"),
     (r"if \(values\.shape == shape\) and False else", FASTER),
     (r"replace\(parts\[1\], branch=branch,", "parts differ in their arrays alone"),
-    # ifs
-    (r"for place in range\(len\(factors\) - 1, -1, -1\)", FASTER),
     # kinematics
     (r"if \(values is controls\) or True else", "one more copy"),
-    (r"controls\.shape\[\+1:\] !=", FASTER),
 )
 
 

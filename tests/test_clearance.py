@@ -378,10 +378,10 @@ def test_a_bone_just_off_a_thin_axis_has_the_normal_of_its_side():
 
 
 def test_a_short_bone_nearly_along_the_axis_has_a_normal_across_both():
-    # The bone leaves the axis in the plane of x and y, so z is across both.
-    bone = [(0, 0, -2), (1e-10, 1e-3, -2)]
+    # The bone leaves the axis in the plane of y and z, so x is across both.
+    bone = [(0, 0, -2), (0, 1e-3, -2 + 1e-10)]
     found = one_clearance(bone, Branch(1, (0, 0, -2)))
-    assert np.abs(found["normal"]) == pytest.approx((0, 0, 1))
+    assert np.abs(found["normal"]) == pytest.approx((1, 0, 0))
 
 
 # Batches -------------------------------------------------------------------------

@@ -223,6 +223,12 @@ def test_an_array_that_cannot_be_written_to_is_refused(out, words):
         forward_kinematics(PARROT, np.zeros((5, 14)), out=out)
 
 
+@pytest.mark.parametrize("azimuths", [None, [0, 1, 2, 3]])
+def test_no_threads_at_all_are_refused(azimuths):
+    with pytest.raises(ParameterError, match=r"^threads = 0 is not an integer from 1"):
+        forward_kinematics(PARROT, np.zeros(14), azimuths=azimuths, threads=0)
+
+
 def test_masked_controls_are_read_as_what_they_hold():
     hidden = np.ma.array([2.0] + [0.0] * 13, mask=[True] + [False] * 13)
     with pytest.raises(ParameterError, match=r"controls\[0\] = 2.0"):
