@@ -446,6 +446,14 @@ def test_the_default_tolerance_is_relative_to_the_foot():
     assert report.tolerance == 1e-4
 
 
+def test_a_tolerance_of_numpys_is_a_number():
+    foot, controls, branches, _ = sample()
+    criteria = Criteria(tolerance=np.float64(0.03) * foot.size)
+    many = check_grasp(foot, controls[:1100], branches[:1100], criteria=criteria)
+    assert type(many.tolerance) is float
+    assert many.tolerance == criteria.tolerance == 0.03 * foot.size
+
+
 def test_a_tolerance_above_a_tenth_of_the_foot_is_refused():
     message = "^tolerance = 0.5 is not at most .* m, 10% of the foot: a contact is a t"
     with pytest.raises(ParameterError, match=message):

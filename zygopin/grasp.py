@@ -61,13 +61,14 @@ class Criteria:
             raise UnknownNameError("reading", self.reading, READINGS)
         if self.tolerance is not None:
             remedy = "give metres, such as 1e-8"
-            checks.number(
+            tolerance = checks.number(
                 "tolerance",
                 self.tolerance,
                 allowed="a positive number",
                 where=lambda x: x > 0,
                 remedy=remedy,
             )
+            object.__setattr__(self, "tolerance", tolerance)
 
     def metres(self, foot: Foot) -> float:
         """The tolerance for a foot [m].
