@@ -19,6 +19,9 @@ from zygopin.foot import Foot
 from zygopin.grasp import check_grasp
 
 
+NEITHER = {"grasping": False, "stable": False}
+
+
 @pytest.fixture
 def report():
     return check_grasp(Foot.preset("paper"), np.ones(14), Branch(0.65, (0, 0, -0.65)))
@@ -41,6 +44,15 @@ def with_verdict(report, **verdict):
         (
             {"grasping": True, "stable": True, "feasible": False},
             "Grasping, not feasible: a phalanx penetrates",
+        ),
+        (
+            {**NEITHER, "feasible": False, "penetrating": [False] * 14},
+            "Touching, not stable, not feasible: fingers collide",
+        ),
+        (
+            {**NEITHER, "feasible": True, "tangent": [False] * 14}
+            | {"touching": [False] * 14},
+            "Nothing tangent to the branch, feasible",
         ),
     ],
 )

@@ -235,6 +235,17 @@ def test_toes_that_cannot_close_ask_for_a_thicker_branch_or_more_omega():
     assert "take a thicker branch, such as one of" in text
 
 
+def test_a_branch_that_no_height_brings_near_asks_for_a_larger_foot():
+    text = reason(Branch(0.008, (1.0, 0, -0.02)), find_height=True)
+    assert "no toe reaches the branch, the nearest stays" in text
+    assert text.endswith("take a larger foot, or a longer or less steep branch")
+
+
+def test_joints_that_hardly_close_find_no_branch_that_would_do():
+    text = reason(Branch(0.008, UNDER), PARROT.replace(omega=0.05), find_height=True)
+    assert "a grasp needs 90°: take a branch across the foot, or a foot whose" in text
+
+
 def test_toes_in_one_plane_run_into_each_other():
     fingers = [
         dataclasses.replace(PARROT.fingers[i % 4], name=f"finger{i}") for i in range(6)
