@@ -18,7 +18,6 @@ from zygopin.caption import (
 from zygopin.foot import Foot
 from zygopin.grasp import check_grasp
 
-
 NEITHER = {"grasping": False, "stable": False}
 
 
@@ -46,7 +45,8 @@ def with_verdict(report, **verdict):
             "Grasping, not feasible: a phalanx penetrates",
         ),
         (
-            {**NEITHER, "feasible": False, "penetrating": [False] * 14},
+            {**NEITHER, "feasible": False, "penetrating": [False] * 14}
+            | {"touching": [True] * 14},
             "Touching, not stable, not feasible: fingers collide",
         ),
         (

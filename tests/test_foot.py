@@ -221,6 +221,7 @@ def test_a_bad_finger_is_one_line(field, value, message):
         ({"rhoo": 2}, UnknownNameError, "unknown field of foot 'rhoo': did you mean"),
         ({1: 2}, UnknownNameError, "unknown field of foot 1: choose one of rho"),
         ({"fingers": 3}, ParameterError, "fingers = 3 is not a list"),
+        ({"fingers": []}, ParameterError, r"fingers = \[\] is not a filled list"),
         ({"fingers": [3]}, ParameterError, "finger = 3 is not a mapping"),
         ({"fingers": [{"name": "a"}]}, ParameterError, "add phalanges"),
         ({"fingers": [{"nam": "a"}]}, UnknownNameError, "did you mean 'name'"),
