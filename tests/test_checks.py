@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.errors import ParameterError
 
 NOT_NUMBERS = [None, True, "1", [1.0], {}, 1j, math.nan, math.inf, 10**400]
@@ -88,7 +88,7 @@ def test_batches_broadcast_or_are_refused_by_name():
 
 @pytest.mark.parametrize("name", ["a", "finger1", "left_toe", "a" * 40])
 def test_an_identifier_comes_back(name):
-    assert checks.identifier("name", name) == name
+    assert kinds.identifier("name", name) == name
 
 
 @pytest.mark.parametrize(
@@ -96,4 +96,4 @@ def test_an_identifier_comes_back(name):
 )
 def test_a_name_that_is_no_identifier_is_refused(name):
     with pytest.raises(ParameterError, match="is not a lower-case identifier"):
-        checks.identifier("name", name)
+        kinds.identifier("name", name)

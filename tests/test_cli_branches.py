@@ -179,7 +179,7 @@ def test_bad_input_is_one_line_and_status_2(run, arguments, message):
 
 
 def test_what_cannot_be_solved_is_not_blamed_on_the_file(run, tmp_path, monkeypatch):
-    monkeypatch.setattr("zygopin.checks.memory_limit", lambda most=None: most or 5000)
+    monkeypatch.setattr("zygopin.memory.limit", lambda most=None: most or 5000)
     file = tmp_path / "branches.csv"
     result = run(*PAPER, "--tied", "--levels", "3", "--csv", str(file))
     assert result.returncode == 2

@@ -11,7 +11,9 @@ PACKAGE = Path(zygopin.__file__).parent
 
 LAYERS = (
     "errors",
+    "kinds",
     "checks",
+    "memory",
     "records",
     "rotations",
     "expansion",
@@ -223,6 +225,7 @@ LAYERS = (
     "paper.document",
     "paper.page",
     "paper.output",
+    "path_options",
     "options",
     "option_types",
     "given_controls",

@@ -203,7 +203,7 @@ def test_rotations_written_with_six_digits_pass():
         (lambda t: pose((2 * t, 0, 0)), "speed = 1.0 is not at least the 2"),
         (lambda t: pose((t > 0.5, 0, 0)), "speed = 1.0 is not at least the 512"),
         (lambda t: pose(angle=t), "turn_rate = 0.0 is not at least the 1"),
-        (3, "TypeError"),
+        (3, "motion = 3 is not a function"),
     ],
 )
 def test_a_function_that_is_no_motion_is_named(function, message):

@@ -14,16 +14,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.atlas_parts import interleaved, share_poses
 from zygopin.branch import Branch
 from zygopin.branch_grid import BranchGrid
-from zygopin.errors import UnknownNameError
 from zygopin.foot import Foot
 from zygopin.grasp import GraspReport, check_branch, check_grasp
 from zygopin.survey import Survey
 from zygopin.toe_contacts import Answer, Codes
-from zygopin.worker_process import mapping
+from zygopin.worker_process import MOST_WORKERS, mapping
 
 Floats = NDArray[np.float64]
 Progress = Callable[[str], None]
@@ -86,8 +85,7 @@ class Atlas:
         Raises:
             UnknownNameError: There is no such question.
         """
-        if verdict not in VERDICTS:
-            raise UnknownNameError("verdict", verdict, VERDICTS)
+        kinds.one_of("verdict", verdict, VERDICTS)
         codes: Codes = getattr(self, verdict)
         return codes
 
@@ -115,7 +113,15 @@ class Atlas:
         Returns:
             The branch.
         """
-        return self.grid.at(row, column)
+        return self.grid.at(*self._cell(row, column))
+
+    def _cell(self, row: int, column: int) -> tuple[int, int]:
+        """Checked indices of one of the branches, from the end where negative."""
+        (rows, columns), number = self.grid.shape, checks.integer
+        return (
+            number("row", row, -rows, rows - 1),
+            number("column", column, -columns, columns - 1),
+        )
 
     def report(self, row: int, column: int) -> GraspReport:
         """The verdicts on the pose for one branch, by the exact engine.
@@ -130,10 +136,11 @@ class Atlas:
         Raises:
             ParameterError: There is no pose for that branch.
         """
-        controls = self.controls[row, column]
+        cell = self._cell(row, column)
+        controls = self.controls[cell]
         if np.isnan(controls).any():
-            controls = self.stable_controls[row, column]
-        return check_grasp(self.foot, controls, self.branch(row, column))
+            controls = self.stable_controls[cell]
+        return check_grasp(self.foot, controls, self.branch(*cell))
 
 
 def branch_atlas(
@@ -163,8 +170,11 @@ def branch_atlas(
             far for this foot.
         WorkerError: A process ended early.
     """
-    checks.instance("foot", foot, Foot)
-    checks.instance("grid", grid, BranchGrid)
+    kinds.instance("foot", foot, Foot)
+    kinds.instance("grid", grid, BranchGrid)
+    if progress is not None:
+        kinds.callable_given("progress", progress)
+    workers = checks.integer("workers", workers, 1, MOST_WORKERS)
     check_branch(foot, grid.at(*np.nonzero(grid.valid)))
     count = max(len(grid.heights) // ROWS, 1)
     grids = [grid.rows(slice(first, None, count)) for first in range(count)]

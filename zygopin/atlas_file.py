@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import zipfile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from zygopin import checks
-from zygopin.archive import write_archive
+from zygopin import checks, kinds
+from zygopin.archive import read_archive, write_archive
 from zygopin.atlas import VERDICTS, Atlas
 from zygopin.branch_grid import BranchGrid
 from zygopin.errors import FileError, ZygopinError
@@ -26,7 +25,6 @@ UNITS = {
 """The arrays of a file, and their units."""
 
 _LINES = ("heights", "radii", "axis", "offset")
-_NO_ARCHIVE = (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile)
 _REMEDY = "name a file that save_atlas has written"
 
 
@@ -48,7 +46,7 @@ def save_atlas(atlas: Atlas, path: Path | str) -> Path:
         ParameterError: It is no atlas.
         FileError: The file cannot be written.
     """
-    checks.instance("atlas", atlas, Atlas)
+    kinds.instance("atlas", atlas, Atlas)
     document = {
         "foot": atlas.foot.to_mapping(),
         "units": UNITS,
@@ -73,14 +71,7 @@ def load_atlas(path: Path | str) -> Atlas:
     Raises:
         FileError: The file cannot be read, or holds no atlas.
     """
-    try:
-        with np.load(path, allow_pickle=False) as archive:
-            arrays = {name: archive[name] for name in (*UNITS, "document")}
-    except OSError as error:
-        problem = error.strerror or str(error)
-        raise FileError(path, f"cannot be read: {problem}", _REMEDY) from error
-    except _NO_ARCHIVE as error:
-        raise FileError(path, "is no atlas", _REMEDY) from error
+    arrays = read_archive(path, (*UNITS, "document"), "atlas")
     try:
         return _atlas(arrays)
     except (ZygopinError, ValueError, KeyError, TypeError) as error:

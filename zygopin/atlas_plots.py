@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin import checks
+from zygopin import kinds
 from zygopin.atlas import VERDICTS, Atlas
 from zygopin.atlas_regions import (
     MOST_PICKED,
@@ -37,6 +37,7 @@ from zygopin.figures import (
     save_figure,
     unit_of,
 )
+from zygopin.files import check_file
 from zygopin.looks import WOOD, finger_paint
 from zygopin.side_views import BARK, draw_side_view
 
@@ -82,7 +83,10 @@ def plot_atlas(
         FileError: The file cannot be written.
         MissingExtraError: Matplotlib is not installed.
     """
-    checks.instance("atlas", atlas, Atlas)
+    check_file(path)
+    kinds.instance("atlas", atlas, Atlas)
+    if not isinstance(cells, Sequence | None):
+        raise ParameterError("cells", cells, "a list", "list rows and columns")
     chosen = picked_cells(atlas, VIEWS) if cells is None else list(cells)
     if len(chosen) > MOST_PICKED:
         remedy = "draw some of them"
@@ -125,7 +129,8 @@ def plot_atlas_wrap(atlas: Atlas, path: Path | str) -> Path:
         FileError: The file cannot be written.
         MissingExtraError: Matplotlib is not installed.
     """
-    checks.instance("atlas", atlas, Atlas)
+    check_file(path)
+    kinds.instance("atlas", atlas, Atlas)
     unit, count = unit_of(atlas.foot), len(atlas.foot.fingers)
     figure = new_figure(12.0, 5.4)
     left, right = figure.subplots(1, 2, sharey=True)

@@ -7,6 +7,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from zygopin import kinds
 from zygopin.atlas import VERDICTS, Atlas
 from zygopin.errors import ParameterError
 from zygopin.grasp import GraspReport
@@ -63,6 +64,7 @@ def region_map(atlas: Atlas) -> Codes:
     Returns:
         `Region` codes, shape (H, R).
     """
+    kinds.instance("atlas", atlas, Atlas)
     unknown = np.any([atlas.answer(name) == Answer.UNDECIDED for name in VERDICTS], 0)
     found = np.where(unknown, Region.UNDECIDED, Region.NONE)
     for region in (
@@ -161,13 +163,21 @@ def pose_report(atlas: Atlas, cell: Cell) -> GraspReport:
         ParameterError: There is no such cell, or it has no pose.
     """
     shape = atlas.grid.shape
-    if len(cell) != 2 or not all(0 <= k < n for k, n in zip(cell, shape, strict=True)):
+    if not _is_cell(cell, shape):
         allowed = f"a row below {shape[0]} and a column below {shape[1]}"
         raise ParameterError("cell", cell, allowed, "count both from 0")
     if not has_pose(atlas)[cell]:
         remedy = "choose one where something is shown"
         raise ParameterError("cell", cell, "a cell with a pose", remedy)
     return atlas.report(*cell)
+
+
+def _is_cell(cell: object, shape: tuple[int, int]) -> bool:
+    """Whether a value is a row and a column of a grid."""
+    if not isinstance(cell, tuple) or len(cell) != 2:
+        return False
+    whole = all(isinstance(k, (int, np.integer)) for k in cell)
+    return whole and all(0 <= k < n for k, n in zip(cell, shape, strict=True))
 
 
 def _apart(

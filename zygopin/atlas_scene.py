@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from zygopin import checks
+from zygopin import kinds
 from zygopin.atlas import Atlas
 from zygopin.atlas_regions import (
     REGION_WORDS,
@@ -32,7 +32,7 @@ from zygopin.drawing import (
     rims,
     stretch_beyond,
 )
-from zygopin.files import write_text
+from zygopin.files import check_file, write_text
 from zygopin.foot import Foot
 from zygopin.looks import WOOD, Paint, drawn_radii, finger_paint
 from zygopin.playback import (
@@ -96,7 +96,8 @@ def export_atlas_scene(
         ParameterError: There is no branch at that height that leaves the base free.
         FileError: The file cannot be written.
     """
-    checks.instance("atlas", atlas, Atlas)
+    check_file(path)
+    kinds.instance("atlas", atlas, Atlas)
     row, foot = Row.at(atlas, height), atlas.foot
     view = _view(row)
     recorder = Recorder()
@@ -109,7 +110,11 @@ def export_atlas_scene(
         row.times, _tracks(row), spans, [], _glimpses(row), _labels(row)
     )
     name = foot.name.replace("_", " ").capitalize()
-    title = f"{name} on branches of growing radius" if title is None else title
+    title = (
+        f"{name} on branches of growing radius"
+        if title is None
+        else kinds.text("title", title)
+    )
     words = _caption(row, title, draw_axes(canvas, view))
     marks = [span.start for span in spans[1:]]
     ends = (float(row.times[0]), float(row.times[-1]))

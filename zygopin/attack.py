@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.flight import Flight
 from zygopin.foot import Foot
 from zygopin.motion import Law, Motion
@@ -75,13 +75,14 @@ class Attack:
         Raises:
             ParameterError: A value is out of range.
         """
-        place = checks.array("target", target)
+        kinds.instance("foot", foot, Foot)
+        place = checks.places("target", target)
         checks.shaped("target", place, (3,))
         radius = checks.number(
             "radius",
             radius,
-            allowed="a length ≥ 0",
-            where=lambda x: x >= 0,
+            allowed=f"a length from 0 to {checks.LARGEST:g}",
+            where=lambda x: 0 <= x <= checks.LARGEST,
             remedy="give metres, such as 0.015",
         )
         down = np.array([math.cos(self.slope), 0.0, -math.sin(self.slope)])
@@ -99,7 +100,11 @@ class Attack:
 
 _UNIT = ("in [0, 1]", lambda x: 0 <= x <= 1, "give a share, such as 0.1")
 _RANGES: dict[str, Any] = {
-    "speed": ("a speed > 0", lambda x: x > 0, "give m/s, such as 3"),
+    "speed": (
+        "a speed from 1e-12 to 1e12",
+        lambda x: 1e-12 <= x <= 1e12,
+        "give m/s, such as 3",
+    ),
     "slope": (
         "above 0, up to π/2",
         lambda x: 0 < x <= math.pi / 2 + 1e-12,

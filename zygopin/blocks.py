@@ -30,6 +30,23 @@ Part = slice | NDArray[np.intp]
 """Some entries of a flat batch: from one to another, or listed."""
 
 
+def as_threads(threads: int | None) -> int | None:
+    """A checked number of threads, or None.
+
+    Args:
+        threads: How many work at once; None: that is left open.
+
+    Returns:
+        The number.
+
+    Raises:
+        ParameterError: Not a number of threads from 1 to `MOST_THREADS`.
+    """
+    if threads is None:
+        return None
+    return checks.integer("threads", threads, 1, MOST_THREADS)
+
+
 def in_blocks(
     work: Callable[[slice], object],
     count: int,
@@ -49,14 +66,13 @@ def in_blocks(
     Raises:
         ParameterError: Not a number of threads from 1 to `MOST_THREADS`.
     """
+    threads = as_threads(threads)
     if count <= size and threads is None:
         work(slice(0, count))
         return
     blocks = [slice(i, min(i + size, count)) for i in range(0, count, size)]
     if threads is None:
         threads = min(_cores(), len(blocks) // WORTH)
-    else:
-        threads = checks.integer("threads", threads, 1, MOST_THREADS)
     np.empty(KEPT, np.uint8)  # freed at once: the thresholds are that high now
     if threads <= 1:
         _do(work, blocks)

@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from zygopin import blocks, checks
+from zygopin import blocks, checks, kinds
+from zygopin.errors import ParameterError
 
 BASE_SLACK = 1e-9
 """How far the base may lie inside, relative to the radius: rounding of a base that
@@ -32,7 +33,7 @@ def branch_axis(yaw: float = 0.0, pitch: float = 0.0) -> NDArray[np.float64]:
     Raises:
         ParameterError: An angle is not finite.
     """
-    yaw, pitch = checks.number("yaw", yaw), checks.number("pitch", pitch)
+    yaw, pitch = checks.angle("yaw", yaw), checks.angle("pitch", pitch)
     level = math.cos(pitch)
     return np.array([-math.sin(yaw) * level, math.cos(yaw) * level, math.sin(pitch)])
 
@@ -152,7 +153,9 @@ class Branch:
         Returns:
             R_world_branch, shape (…, 3, 3), right-handed.
         """
-        reference = np.broadcast_to(np.asarray(reference, float), self.axis.shape)
+        reference = checks.places("reference", reference)
+        checks.shaped("reference", reference, (3,))
+        reference = np.broadcast_to(reference, self.axis.shape)
         flat = self._across(reference)
         weak = np.linalg.norm(flat, axis=-1, keepdims=True) < 1e-6
         spare = np.eye(3)[np.argmin(np.abs(self.axis), axis=-1)]
@@ -177,8 +180,12 @@ class Branch:
             A batch of shape (n,), n the number of entries of `shape`.
 
         Raises:
-            ValueError: The branch does not broadcast to that shape.
+            ParameterError: The branch does not broadcast to that shape.
         """
+        kinds.shape("shape", shape)
+        if checks.common_batch("shape and branch", shape, self.batch_shape) != shape:
+            allowed = f"one to which {self.batch_shape} broadcasts"
+            raise ParameterError("shape", shape, allowed, "give a larger one")
         return self._changed(
             lambda x, tail: np.broadcast_to(x, (*shape, *tail)).reshape(-1, *tail)
         )

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.branch import Branch
 from zygopin.errors import ParameterError
 from zygopin.projection import Complexes, Floats, ProjectedFinger
@@ -76,10 +76,14 @@ class BranchGrid:
         Returns:
             A batch of branches, shape (…).
         """
-        height = self.heights[np.asarray(rows)]
+        level = checks.indices("rows", rows, len(self.heights))
+        height, radius = (
+            self.heights[level],
+            self.radii[checks.indices("columns", columns, len(self.radii))],
+        )
         across = np.broadcast_to(self.offset, (*height.shape, 2))
         centre = np.concatenate([across, height[..., None]], axis=-1)
-        return Branch(self.radii[np.asarray(columns)], centre, self.axis)
+        return Branch(radius, centre, self.axis)
 
     def rows(self, which: slice) -> BranchGrid:
         """The grid of some of the heights.
@@ -87,6 +91,7 @@ class BranchGrid:
         Args:
             which: Their indices.
         """
+        kinds.instance("which", which, slice)
         return BranchGrid(self.heights[which], self.radii, self.axis, self.offset)
 
     def line(self, finger: ProjectedFinger) -> tuple[complex, complex]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from zygopin import checks
+from zygopin import checks, memory
 from zygopin.branch_solutions import (
     BranchSolutions,
     Found,
@@ -131,13 +131,13 @@ def _check_memory(search: Search, max_bytes: int | None) -> None:
     """Refuse solutions that do not fit; count them where there may be too many."""
     # While they are joined they are there twice.
     each, systems = 2 * search.bytes_each, _systems(search)
-    most = checks.memory_limit(max_bytes)
+    most = memory.limit(max_bytes)
     if systems * each <= most:
         return
     count = sum(len(found.height) for found, _ in _found(search))
     what = f"{count} solutions of {systems} systems"
     remedy = "stream them with iter_stable_branches, or take fewer levels"
-    checks.memory(what, count * each, most, remedy)
+    memory.require(what, count * each, most, remedy)
 
 
 def _blocks(search: Search, block: int) -> Iterator[BranchSolutions]:

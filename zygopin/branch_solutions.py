@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.branch import Branch
 from zygopin.clearance import Floats
 from zygopin.control_system import Levels
@@ -156,8 +156,8 @@ class Search:
             ParameterError: The fingers are not opposable, or the levels no control set.
             UnknownNameError: There is no finger of that name.
         """
-        placement, criteria = placement or Placement(), criteria or Criteria()
-        checks.instance("placement", placement, Placement)
+        placement = kinds.optional("placement", placement, Placement)
+        criteria = kinds.optional("criteria", criteria, Criteria)
         two = pair_of_fingers(foot, pair)
         values = control_set(levels)
         counts = line_count(two, 0, values), line_count(two, 1, values)
@@ -286,7 +286,8 @@ def pair_of_fingers(foot: Foot, pair: Pair) -> Foot:
         ParameterError: They are not two fingers, or not opposable.
         UnknownNameError: There is no finger of that name.
     """
-    if isinstance(pair, str) or len(pair) != 2:
+    kinds.instance("foot", foot, Foot)
+    if not isinstance(pair, (tuple, list)) or len(pair) != 2:
         raise ParameterError("pair", pair, "two fingers", "give two names or numbers")
     fingers = tuple(find_finger(foot, finger) for finger in pair)
     if fingers[0] != fingers[1]:

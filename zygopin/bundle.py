@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from zygopin import checks, kinds
 from zygopin.description import to_urdf
-from zygopin.files import write_bytes, write_text
+from zygopin.files import check_folder, write_bytes, write_text
 from zygopin.foot import Foot
 from zygopin.mesh import to_glb
 from zygopin.mjcf import to_mjcf
@@ -36,6 +37,10 @@ def write_description(
             too light for MuJoCo.
         FileError: The folder cannot be written.
     """
+    kinds.instance("foot", foot, Foot)
+    checks.flag("mjcf", mjcf)
+    checks.flag("glb", glb)
+    place = check_folder(folder)
     texts = {
         "foot.urdf": to_urdf(foot),
         "foot_tendon.urdf": to_urdf(foot, tendon=True),
@@ -48,6 +53,6 @@ def write_description(
         texts["scene.xml"] = to_mjcf_scene(foot, "foot_tendon.xml")
     meshes = {"foot.glb": to_glb(foot)} if glb else {}
     return (
-        *(write_text(Path(folder) / name, text) for name, text in texts.items()),
-        *(write_bytes(Path(folder) / name, mesh) for name, mesh in meshes.items()),
+        *(write_text(place / name, text) for name, text in texts.items()),
+        *(write_bytes(place / name, mesh) for name, mesh in meshes.items()),
     )

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
-import re
 from collections.abc import Callable
 from typing import Any
 
@@ -13,7 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from zygopin.errors import ParameterError
 
-_NAME = re.compile(r"[a-z][a-z0-9_]*")
+REAL = "iuf"
+"""NumPy's kinds of real numbers."""
+
+MOST_TURNED = 1e6
+"""Largest angle [rad]: above, its rounding is seen in its sine."""
 
 SMALLEST, LARGEST = 1e-12, 1e12
 """Lengths that a solid may have [m]: their squares neither vanish nor overflow."""
@@ -42,15 +44,30 @@ def number(
     Raises:
         ParameterError: The value is not a number, not finite, or fails the condition.
     """
-    if isinstance(value, (bool, str)) or value is None:
-        raise ParameterError(name, value, allowed, remedy)
-    try:
-        result = float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError, OverflowError) as error:
-        raise ParameterError(name, value, allowed, remedy) from error
+    result = _as_float(value)
     if not math.isfinite(result) or not where(result):
         raise ParameterError(name, value, allowed, remedy)
     return result
+
+
+def _as_float(value: object) -> float:
+    """A real number as a float; NaN for what is none, or too large for one."""
+    kind = type(value)
+    if kind is float:
+        return value  # type: ignore[return-value]
+    if kind in (bool, np.bool_) or not hasattr(kind, "__float__"):
+        return math.nan  # without that method: text and bytes, which float() reads
+    if isinstance(value, (np.ndarray, np.generic)) and not _holds_one_real(value):
+        return math.nan
+    try:
+        return float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        return math.nan
+
+
+def _holds_one_real(value: NDArray[Any] | np.generic) -> bool:
+    """Whether a value of NumPy's is one number: no list, date or complex one."""
+    return value.ndim == 0 and value.dtype.kind in REAL
 
 
 def integer(name: str, value: object, low: int, high: int) -> int:
@@ -96,11 +113,12 @@ def array(name: str, value: ArrayLike, *, last: int | None = None) -> NDArray[An
     allowed, remedy = "an array of numbers", "give numbers, in a sequence or an array"
     try:
         given = np.asarray(value)
-        result = np.array(given, dtype=float)
     except (TypeError, ValueError, OverflowError) as error:
         raise ParameterError(name, value, allowed, remedy) from error
-    if given.dtype.kind not in "iuf":  # text, truth values, dates, complex numbers
+    if given.dtype.kind not in REAL:  # text, truth values, dates, complex numbers
         raise ParameterError(name, value, allowed, remedy)
+    with np.errstate(over="ignore"):  # what is too long for a double becomes infinite
+        result = np.array(given, dtype=float)
     if last is not None and (result.ndim == 0 or result.shape[-1] != last):
         allowed = f"of shape (…, {last})"
         remedy = f"give {last} numbers along the last axis"
@@ -109,20 +127,87 @@ def array(name: str, value: ArrayLike, *, last: int | None = None) -> NDArray[An
     return result
 
 
-def instance(name: str, value: object, kind: type) -> None:
-    """Raise unless a value is of a class.
+def flag(name: str, value: object) -> bool:
+    """A truth value: a text such as "no" would count as true.
 
     Args:
         name: Name of the parameter, for the message.
         value: What was given.
-        kind: The class.
+
+    Returns:
+        The value.
 
     Raises:
-        ParameterError: Names the class that it is of.
+        ParameterError: It is neither True nor False.
     """
-    if not isinstance(value, kind):
-        given, wanted = type(value).__name__, kind.__name__
-        raise ParameterError(name, given, f"a {wanted}", f"give a zygopin.{wanted}")
+    if not isinstance(value, (bool, np.bool_)):
+        raise ParameterError(name, value, "True or False", "give one of these")
+    return bool(value)
+
+
+def indices(name: str, value: ArrayLike, count: int) -> NDArray[np.intp]:
+    """Places in a list, counted from 0; from its end where they are negative.
+
+    Args:
+        name: Name of the parameter, for the message.
+        value: What was given, shape (…).
+        count: Length of the list.
+
+    Returns:
+        The indices, shape (…).
+
+    Raises:
+        ParameterError: One is no integer, or out of range.
+    """
+    given = array(name, value)
+    good = (given >= -count) & (given < count) & (given == np.floor(given))
+    allowed = f"an integer from 0 to {count - 1}"
+    require(name, given, good, allowed, "count from 0")
+    return given.astype(np.intp)
+
+
+def angle(name: str, value: object) -> float:
+    """An angle of not so many turns that rounding is seen in its sine.
+
+    Args:
+        name: Name of the parameter, for the message.
+        value: What was given [rad].
+
+    Returns:
+        The angle [rad].
+
+    Raises:
+        ParameterError: It is none, or beyond `MOST_TURNED`.
+    """
+    return number(
+        name,
+        value,
+        allowed=f"an angle within {MOST_TURNED:g}",
+        where=lambda x: abs(x) <= MOST_TURNED,
+        remedy="give radians",
+    )
+
+
+def unit(name: str, value: object) -> float:
+    """A number in [0, 1].
+
+    Args:
+        name: Name of the parameter, for the message.
+        value: What was given.
+
+    Returns:
+        The number.
+
+    Raises:
+        ParameterError: It is none, or outside.
+    """
+    return number(
+        name,
+        value,
+        allowed="in [0, 1]",
+        where=lambda x: 0 <= x <= 1,
+        remedy="give a share, such as 0.5",
+    )
 
 
 def lengths(name: str, value: ArrayLike, *, last: int | None = None) -> NDArray[Any]:
@@ -144,6 +229,24 @@ def lengths(name: str, value: ArrayLike, *, last: int | None = None) -> NDArray[
     allowed = f"a positive number, from {SMALLEST:g} to {LARGEST:g} m"
     require(name, result, good, allowed, "give metres, such as 0.008 for 8 mm")
     return read_only(result)
+
+
+def length(name: str, value: ArrayLike) -> float:
+    """One positive length, whose square neither vanishes nor overflows.
+
+    Args:
+        name: Name of the parameter, for the message.
+        value: What was given [m].
+
+    Returns:
+        The length [m].
+
+    Raises:
+        ParameterError: It is none, or not in [`SMALLEST`, `LARGEST`].
+    """
+    one = lengths(name, value)
+    shaped(name, one, ())
+    return float(one)
 
 
 def places(name: str, value: ArrayLike) -> NDArray[Any]:
@@ -245,53 +348,3 @@ def common_batch(what: str, *shapes: tuple[int, ...]) -> tuple[int, ...]:
         raise ParameterError(
             f"batch shapes of {what}", shapes, allowed, remedy
         ) from error
-
-
-def memory_limit(most: int | None = None) -> int:
-    """Memory that an answer may take.
-
-    Args:
-        most: What the caller allows [bytes]; None: half of the machine's.
-
-    Returns:
-        The number of bytes.
-    """
-    if most is not None:
-        return most
-    return int(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2)
-
-
-def memory(what: str, needed: int, most: int, remedy: str) -> None:
-    """Raise unless something fits in memory.
-
-    Args:
-        what: What it is, for the message.
-        needed: Bytes that it takes.
-        most: Bytes that it may take.
-        remedy: What to do otherwise, in words.
-
-    Raises:
-        ParameterError: It takes more.
-    """
-    if needed > most:
-        name = f"memory for {what} [bytes]"
-        raise ParameterError(name, needed, f"at most {most}", remedy)
-
-
-def identifier(name: str, value: object) -> str:
-    """A name that is safe in XML, in file names and as a key.
-
-    Args:
-        name: Name of the parameter, for the message.
-        value: What was given.
-
-    Returns:
-        The value.
-
-    Raises:
-        ParameterError: Not a lower-case identifier.
-    """
-    if isinstance(value, str) and len(value) <= 40 and _NAME.fullmatch(value):
-        return value
-    allowed = "a lower-case identifier of at most 40 characters"
-    raise ParameterError(name, value, allowed, "use letters a-z, digits and _")

@@ -30,6 +30,7 @@ from zygopin.options import (
     make_foot,
     make_strength,
 )
+from zygopin.path_options import FILE, FOLDER
 from zygopin.terminal import print_table, waiting
 
 if TYPE_CHECKING:  # commands load what they use, so that --help is quick
@@ -37,9 +38,7 @@ if TYPE_CHECKING:  # commands load what they use, so that --help is quick
     from zygopin.perch import PerchPlan
     from zygopin.strength import Strength
 
-_HTML = click.option(
-    "--html", type=click.Path(path_type=Path), help="Write the scene to this file."
-)
+_HTML = click.option("--html", type=FILE, help="Write the scene to this file.")
 _JSON = click.option("--json", "as_json", is_flag=True, help="Print JSON, in SI.")
 
 
@@ -72,7 +71,7 @@ main.add_command(paper)
     "-o",
     "--output",
     required=True,
-    type=click.Path(path_type=Path),
+    type=FOLDER,
     help="Folder to write to.",
 )
 @click.option("--mjcf", is_flag=True, help="Add foot.xml and others, for MuJoCo.")

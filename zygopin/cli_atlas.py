@@ -11,6 +11,7 @@ import click
 
 from zygopin.option_types import Cells, Interval, Range, finger_pair
 from zygopin.options import MM, POSITIVE_MM, axis_options, foot_options, make_foot
+from zygopin.path_options import FILE
 from zygopin.terminal import print_table, waiting
 
 if TYPE_CHECKING:  # commands load what they use, so that --help is quick
@@ -39,8 +40,7 @@ def _file_options(command: Any) -> Any:
     """Add an option for each file."""
     for name, (_, words) in reversed(_FILES.items()):
         option = f"--{name.replace('_', '-')}"
-        kind = click.Path(path_type=Path)
-        command = click.option(option, name, type=kind, help=words)(command)
+        command = click.option(option, name, type=FILE, help=words)(command)
     return command
 
 

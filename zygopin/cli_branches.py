@@ -14,6 +14,7 @@ import click
 from zygopin.errors import ParameterError
 from zygopin.option_types import finger_pair
 from zygopin.options import MM, axis_options, foot_options, make_foot
+from zygopin.path_options import FILE
 from zygopin.terminal import print_table, waiting
 
 if TYPE_CHECKING:  # commands load what they use, so that --help is quick
@@ -129,7 +130,7 @@ class _Tally:
 @click.option(
     "--csv",
     "file",
-    type=click.Path(path_type=Path),
+    type=FILE,
     help="Write all to this file, in SI, with their controls.",
 )
 @click.option("--verify", is_flag=True, help="Check each one by FCL.")

@@ -11,6 +11,7 @@ import click
 
 from zygopin.option_types import Interval, Range
 from zygopin.options import DEGREES, POSITIVE_MM, Quantity, foot_options, make_foot
+from zygopin.path_options import FILE
 from zygopin.terminal import print_table, waiting
 
 if TYPE_CHECKING:  # commands load what they use, so that --help is quick
@@ -23,8 +24,6 @@ _FREE = {
     "scale-mm": POSITIVE_MM,
 }
 """What may vary, as options call it."""
-
-_FILE = click.Path(path_type=Path)
 
 
 class Bounds(click.ParamType):  # type: ignore[type-arg,unused-ignore]
@@ -80,8 +79,8 @@ class Bounds(click.ParamType):  # type: ignore[type-arg,unused-ignore]
 @click.option(
     "--workers", type=click.IntRange(1, 1024), help="Processes; else one a processor."
 )
-@click.option("-o", "--output", type=_FILE, help="Write the foot, YAML for --foot.")
-@click.option("--png", type=_FILE, help="Draw the perches before and after.")
+@click.option("-o", "--output", type=FILE, help="Write the foot, YAML for --foot.")
+@click.option("--png", type=FILE, help="Draw the perches before and after.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in SI.")
 def design(
     radii: Interval,

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from zygopin.path_options import FOLDER
 from zygopin.terminal import print_table, progress
 
 if TYPE_CHECKING:  # commands load what they use, so that --help is quick
@@ -19,7 +20,7 @@ if TYPE_CHECKING:  # commands load what they use, so that --help is quick
     "-o",
     "--output",
     required=True,
-    type=click.Path(path_type=Path),
+    type=FOLDER,
     help="Folder to write to.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print report.json as well.")

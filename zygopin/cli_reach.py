@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from zygopin.option_types import named_finger
 from zygopin.options import (
     DEGREES,
     Several,
@@ -17,6 +18,7 @@ from zygopin.options import (
     foot_options_with,
     make_foot,
 )
+from zygopin.path_options import FILE, PATH
 from zygopin.terminal import print_table, progress
 
 if TYPE_CHECKING:  # commands load what they use, so that --help is quick
@@ -24,7 +26,6 @@ if TYPE_CHECKING:  # commands load what they use, so that --help is quick
     from zygopin.reach import FingerReach
 
 _JSON = click.option("--json", "as_json", is_flag=True, help="Print JSON, in SI.")
-_FILE = click.Path(path_type=Path)
 
 _OMEGAS = click.option(
     "--omega-deg",
@@ -58,7 +59,7 @@ _FILES = {
     show_default=True,
     help="Equal levels of each control; fewer for long fingers.",
 )
-@click.option("--urdf", type=_FILE, help="A URDF to judge; else the foot's own.")
+@click.option("--urdf", type=PATH, help="A URDF to judge; else the foot's own.")
 @_JSON
 @click.pass_context
 def validate(
@@ -103,7 +104,7 @@ def validate(
 def _file_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add an option for each file that `reach` writes."""
     for name, (_, words) in reversed(_FILES.items()):
-        command = click.option(f"--{name}", name, type=_FILE, help=words)(command)
+        command = click.option(f"--{name}", name, type=FILE, help=words)(command)
     return command
 
 
@@ -159,7 +160,7 @@ def _sets(
     """One set for each joint limit."""
     from zygopin.reach import MOST_POINTS, find_finger, finger_reach, levels_within
 
-    which = int(finger) if finger.isdecimal() else finger
+    which = named_finger(finger)
     for foot in feet:
         phalanges = depth or find_finger(foot, which).phalanges
         count = levels or levels_within(phalanges, MOST_POINTS)

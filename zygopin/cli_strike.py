@@ -18,6 +18,7 @@ from zygopin.options import (
     foot_options,
     make_foot,
 )
+from zygopin.path_options import FILE
 from zygopin.terminal import print_table, waiting
 
 if TYPE_CHECKING:  # commands load what they use, so that --help is quick
@@ -27,7 +28,6 @@ if TYPE_CHECKING:  # commands load what they use, so that --help is quick
     from zygopin.obstacle import Sphere
     from zygopin.trajectory import StrikeTrajectory
 
-_FILE = click.Path(path_type=Path)
 _SHARE = click.FloatRange(0, 1)
 _SPEED = Quantity("metres per second", 1.0, positive=True)
 _MILLISECONDS = Quantity("milliseconds", 1e-3, positive=True)
@@ -111,9 +111,9 @@ _CLOSING = ("reading", "duration", "shape")
     show_default=True,
     help="What measures clearances.",
 )
-@click.option("--html", type=_FILE, help="Write the animated scene to this file.")
-@click.option("--png", type=_FILE, help="Draw modes, clearances and controls.")
-@click.option("--save", type=_FILE, help="Write the whole record, .npz or .json.")
+@click.option("--html", type=FILE, help="Write the animated scene to this file.")
+@click.option("--png", type=FILE, help="Draw modes, clearances and controls.")
+@click.option("--save", type=FILE, help="Write the whole record, .npz or .json.")
 @_JSON
 @click.pass_context
 def strike(

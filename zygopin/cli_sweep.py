@@ -8,7 +8,9 @@ from typing import Any
 
 import click
 
+from zygopin.option_types import is_count
 from zygopin.options import DEGREES, MM, Quantity, make_foot, preset_options
+from zygopin.path_options import PATH
 from zygopin.terminal import print_table, steps
 
 RATIO = Quantity("numbers", 1.0)
@@ -54,7 +56,7 @@ class Grid(click.ParamType):  # type: ignore[type-arg,unused-ignore]
         """Values at equal steps."""
         start, _, rest = value.partition(":")
         stop, _, count = rest.partition(":")
-        if not count.isdecimal() or not 2 <= int(count) <= MOST_VALUES:
+        if not is_count(count, MOST_VALUES):
             words = "START:STOP:COUNT with a count of 2 or more, such as 3:20:18"
             self.fail(f"{value!r} is not {words}.", param, ctx)
         first, last = (self.each.convert(end, param, ctx) for end in (start, stop))
@@ -130,9 +132,7 @@ def _field(option: str) -> str:
     show_default=True,
     help="Angles that the planner tries at each joint.",
 )
-@click.option(
-    "-o", "--output", type=click.Path(path_type=Path), help="FILE.nc or FOLDER.zarr."
-)
+@click.option("-o", "--output", type=PATH, help="FILE.nc or FOLDER.zarr.")
 @click.option(
     "--scheduler",
     default="processes",

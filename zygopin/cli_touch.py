@@ -9,6 +9,7 @@ from typing import Any
 import click
 
 from zygopin.options import MM, axis_options, foot_options, make_foot
+from zygopin.path_options import FILE
 from zygopin.terminal import print_table, waiting
 
 
@@ -21,7 +22,7 @@ from zygopin.terminal import print_table, waiting
 @axis_options
 @click.option(
     "--png",
-    type=click.Path(path_type=Path),
+    type=FILE,
     help="Draw the intervals against ω and against ρ.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in SI.")

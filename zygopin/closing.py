@@ -12,8 +12,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from zygopin import checks
-from zygopin.errors import ParameterError, UnknownNameError
+from zygopin import checks, kinds
+from zygopin.errors import ParameterError
 
 Reading = Literal["paper", "contact"]
 """`paper`: all controls equal v, through the obstacle. `contact`: controls start from
@@ -57,13 +57,12 @@ class Closing:
     _map: Callable[[Floats], Floats] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        if self.reading not in READINGS:
-            raise UnknownNameError("reading", self.reading, READINGS)
+        kinds.one_of("reading", self.reading, READINGS)
         duration = checks.number(
             "closing.duration",
             self.duration,
-            allowed="a time > 0",
-            where=lambda x: x > 0,
+            allowed=f"a time > 0, up to {checks.LARGEST:g}",
+            where=lambda x: 0 < x <= checks.LARGEST,
             remedy="give seconds, such as 0.04",
         )
         object.__setattr__(self, "duration", duration)
@@ -79,7 +78,7 @@ class Closing:
         Returns:
             Values v in [0, 1], shape (n,).
         """
-        inside = np.clip(np.asarray(times, dtype=float), 0, self.duration)
+        inside = np.clip(checks.array("times", times), 0, self.duration)
         return self._map(inside)
 
     def when(self, value: float) -> float:
@@ -91,6 +90,7 @@ class Closing:
         Returns:
             The time [s].
         """
+        value = checks.number("value", value)
         low, high = 0.0, self.duration
         if self.at([low])[0] >= value:
             return low
@@ -112,8 +112,7 @@ def _looks(shape: Shape) -> int:
 def _map(shape: Shape, duration: float) -> Callable[[Floats], Floats]:
     """The map as a function of times in [0, T]."""
     if isinstance(shape, str):
-        if shape not in ("linear", "smooth"):
-            raise UnknownNameError("closing.shape", shape, ("linear", "smooth"))
+        kinds.one_of("closing.shape", shape, ("linear", "smooth"))
         if shape == "linear":
             return lambda times: times / duration
         return lambda times: (times / duration) ** 2 * (3 - 2 * times / duration)

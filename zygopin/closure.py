@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from zygopin import kinds
 from zygopin.contacts import LARGEST_FRICTION, Contacts, Floats, Friction
 from zygopin.programme import maximise_last
 
@@ -97,6 +98,7 @@ def least_friction(contacts: Contacts, edges: int = 8) -> tuple[float, float]:
     Raises:
         ParameterError: Edges out of range.
     """
+    kinds.instance("contacts", contacts, Contacts)
     most = Friction(LARGEST_FRICTION, edges)
     if not force_closure(contacts, most):
         return math.inf, math.inf
@@ -118,6 +120,8 @@ def least_friction(contacts: Contacts, edges: int = 8) -> tuple[float, float]:
 
 def _edge_wrenches(contacts: Contacts, friction: Friction) -> Floats:
     """Wrenches of all edges of the inscribed pyramids, shape (N·edges, 6)."""
+    kinds.instance("contacts", contacts, Contacts)
+    kinds.instance("friction", friction, Friction)
     return contacts.wrenches(friction.forces(contacts.normals)).reshape(-1, 6)
 
 

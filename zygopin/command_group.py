@@ -17,6 +17,9 @@ from zygopin.errors import FileError, ZygopinError
 BROKEN_PIPE = 141
 """Exit status of a program whose reader has gone, as shells count it."""
 
+LONGEST = 600
+"""Characters of a complaint: what was typed may be much longer."""
+
 
 class OneLineErrors(click.Group):
     """A command group whose errors are one line on stderr and an exit status."""
@@ -75,4 +78,7 @@ class OneLineErrors(click.Group):
 
 def _complain(message: str) -> None:
     """One line on stderr."""
-    click.echo(f"zygopin: {' '.join(message.split())}", err=True)
+    line = " ".join(message.split())
+    if len(line) > LONGEST:
+        line = f"{line[: LONGEST - 3]}..."
+    click.echo(f"zygopin: {line}", err=True)

@@ -8,8 +8,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.errors import ParameterError
+from zygopin.finger import MAX_PHALANGES
+from zygopin.foot import MAX_FINGERS
 from zygopin.grasp import GraspReport
 
 Floats = NDArray[np.float64]
@@ -19,6 +21,10 @@ NEAREST = 1e-9
 
 LARGEST_FRICTION = 1e3
 """Coefficient beyond which a cone is a half-space but for rounding."""
+
+
+MOST_PHALANGES = MAX_FINGERS * MAX_PHALANGES
+"""Phalanges that a foot may have."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,15 +66,15 @@ class Contacts:
         lengths = np.linalg.norm(normals, axis=-1)
         remedy = "give outward normals"
         checks.require("contacts.normals", lengths, lengths > 0, "not zero", remedy)
-        scale = float(checks.lengths("contacts.scale", self.scale))
+        scale = checks.length("contacts.scale", self.scale)
+        origin = checks.places("contacts.origin", self.origin)
+        checks.shaped("contacts.origin", origin, (3,))
         _check_apart(points, scale)
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "normals", normals / lengths[:, None])
-        object.__setattr__(self, "origin", checks.places("origin", self.origin))
+        object.__setattr__(self, "origin", origin)
         object.__setattr__(self, "scale", scale)
-        none = np.full(len(points), -1)
-        ranks = none if self.phalanges is None else np.asarray(self.phalanges, np.intp)
-        checks.shaped("contacts.phalanges", ranks, points.shape[:1])
+        ranks = _ranks(self.phalanges, len(points))
         object.__setattr__(self, "phalanges", ranks)
         checks.freeze(self)
 
@@ -81,7 +87,9 @@ class Contacts:
         Returns:
             Wrenches [N], shape (N, …, 6).
         """
+        forces = checks.array("forces", forces, last=3)
         between = (1,) * (forces.ndim - 2)
+        checks.shaped("forces", forces, (len(self.points), *forces.shape[1:]))
         arms = (self.points - self.origin).reshape(-1, *between, 3)
         return np.concatenate([forces, np.cross(arms, forces) / self.scale], axis=-1)
 
@@ -95,8 +103,12 @@ class Contacts:
         Returns:
             Wrench [N], shape (…, 6).
         """
-        push = np.asarray(force, float)
-        arm = np.asarray(point, float) - self.origin
+        push, place = (
+            checks.array("force", force, last=3),
+            checks.places("point", point),
+        )
+        checks.common_batch("force and point", push.shape[:-1], place.shape[:-1])
+        arm = place - self.origin
         return np.concatenate([push, np.cross(arm, push) / self.scale], axis=-1)
 
 
@@ -146,6 +158,9 @@ class Friction:
         Returns:
             Forces [N], shape (N, edges, 3).
         """
+        normals = checks.array("normals", normals, last=3)
+        checks.shaped("normals", normals, (None, 3))
+        checks.flag("around", around)
         reach = self.coefficient / (self.rounding if around else 1.0)
         spare = np.eye(3)[np.argmin(np.abs(normals), axis=-1)]
         first = np.cross(normals, spare)
@@ -172,6 +187,7 @@ def branch_contacts(report: GraspReport) -> Contacts:
     Raises:
         ParameterError: A batch of stances, or none of the phalanges touches.
     """
+    kinds.instance("report", report, GraspReport)
     if report.touching.ndim != 1:
         batch = report.touching.shape[:-1]
         remedy = "give the report on one stance"
@@ -191,6 +207,18 @@ def branch_contacts(report: GraspReport) -> Contacts:
         scale=radius,
         phalanges=np.array(found, dtype=np.intp),
     )
+
+
+def _ranks(phalanges: ArrayLike | None, count: int) -> NDArray[np.intp]:
+    """Checked indices of phalanges, −1 where there is none, shape (count,)."""
+    given = np.full(count, -1)
+    if phalanges is not None:
+        given = checks.array("contacts.phalanges", phalanges)
+    checks.shaped("contacts.phalanges", given, (count,))
+    good = (given >= -1) & (given < MOST_PHALANGES) & (given == np.floor(given))
+    remedy = "give each contact's phalanx, or -1"
+    checks.require("contacts.phalanges", given, good, "an index", remedy)
+    return given.astype(np.intp)
 
 
 def _check_apart(points: Floats, scale: float) -> None:

@@ -50,7 +50,7 @@ class ControlSystem:
         set_field = object.__setattr__
         set_field(self, "rho", as_rho(self.rho))
         set_field(self, "omega", as_omega(self.omega))
-        set_field(self, "orientation", checks.number("orientation", self.orientation))
+        set_field(self, "orientation", checks.angle("orientation", self.orientation))
         if self.levels is not None:
             set_field(self, "levels", as_levels(self.levels))
 
@@ -91,6 +91,10 @@ class ControlSystem:
         Returns:
             The radius.
         """
+        depth = checks.integer("depth", depth, 0, MAX_DEPTH)
+        if isinstance(total, float) and total == math.inf:
+            return depth_bound(self.rho, depth)
+        total = checks.integer("total", total, depth, MAX_DEPTH)
         return depth_bound(self.rho, depth) - depth_bound(self.rho, total)
 
 
@@ -173,7 +177,11 @@ def words(levels: Levels, depth: int, indices: ArrayLike) -> NDArray[np.float64]
     """
     levels, depth = as_levels(levels), as_depth(depth)
     count = len(levels) ** depth
-    index = np.asarray(indices)
+    try:
+        index = np.asarray(indices)
+    except ValueError as error:  # of rows that differ in length
+        remedy = "give integers"
+        raise ParameterError("indices", indices, "an array", remedy) from error
     if index.dtype.kind not in "iu":
         remedy = "give integers"
         raise ParameterError("indices", indices, "an array of integers", remedy)
@@ -219,20 +227,24 @@ def as_tolerance(tolerance: float) -> float:
     return checks.number(
         "tolerance",
         tolerance,
-        allowed="a finite number > 0",
-        where=lambda x: x > 0,
+        allowed=f"a number > 0, up to {checks.LARGEST:g}",
+        where=lambda x: 0 < x <= checks.LARGEST,
         remedy="give a distance, in units in which the first phalanx has length 1/ρ",
     )
 
 
 def as_points(name: str, points: ArrayLike) -> NDArray[np.complex128]:
     """Finite complex numbers as an array, shape (…)."""
+    remedy = "give x + iz as a complex number"
     try:
-        values = np.asarray(points, dtype=np.complex128)
-    except (TypeError, ValueError) as error:
-        remedy = "give x + iz as a complex number"
+        given = np.asarray(points)
+    except ValueError as error:  # of rows that differ in length
         raise ParameterError(name, points, "complex numbers", remedy) from error
-    checks.require(name, values, np.isfinite(values), "finite", "give finite x + iz")
+    if given.dtype.kind not in f"{checks.REAL}c":
+        raise ParameterError(name, points, "complex numbers", remedy)
+    values = given.astype(np.complex128)
+    near = np.abs(values.real) + np.abs(values.imag) <= checks.LARGEST
+    checks.require(name, values, near, f"within {checks.LARGEST:g}", remedy)
     return values
 
 

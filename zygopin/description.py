@@ -6,6 +6,7 @@ what Python returns is one text.
 
 from __future__ import annotations
 
+from zygopin import checks, kinds
 from zygopin.foot import Foot
 from zygopin.shipped import shipped_urdf
 
@@ -27,6 +28,8 @@ def to_urdf(foot: Foot, *, tendon: bool = False) -> str:
     Raises:
         DescriptionError: The template is missing or does not expand.
     """
+    kinds.instance("foot", foot, Foot)
+    checks.flag("tendon", tendon)
     ready = shipped_urdf(foot, tendon=tendon)
     if ready is not None:
         return ready

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin import checks
-from zygopin.errors import ParameterError, UnknownNameError
+from zygopin import checks, kinds
+from zygopin.errors import ParameterError
 from zygopin.foot import Foot
 from zygopin.graspable import GraspableRadii, Interval, graspable_radii, radius_range
-from zygopin.worker_process import mapping
+from zygopin.worker_process import MOST_WORKERS, mapping
 
 BOUNDS: dict[str, Interval] = {
     "rho": (1.05, 1.8),
@@ -114,14 +114,19 @@ def design_foot(
         ParameterError: A range is empty, or a number out of range.
         WorkerError: A process ended early.
     """
+    kinds.instance("foot", foot, Foot)
     low, high = radius_range(low, high)
     chosen = dict.fromkeys(BOUNDS) if bounds is None else bounds
+    if not isinstance(chosen, Mapping):
+        remedy = "give names of parameters and their bounds"
+        raise ParameterError("bounds", bounds, "a mapping", remedy)
     free = {name: _bounds(foot, name, given) for name, given in chosen.items()}
     checks.integer("number of varied parameters", len(free), 1, len(BOUNDS))
     generations = (
         checks.integer("trials", trials, POPULATION, MOST_TRIALS) // POPULATION
     )
     search = _Search(foot, low, high, tuple(free.items()))
+    workers = checks.integer("workers", workers, 1, MOST_WORKERS)
     with mapping(workers) as spread:
         finalists = search.best(generations, spread)
         feet = [foot, *map(search.rounded, finalists)]
@@ -232,13 +237,13 @@ class _Exact:
 
 def _bounds(foot: Foot, name: str, given: object) -> Interval:
     """Bounds of a parameter [SI], at both of which there is a foot."""
-    if name not in BOUNDS:
-        raise UnknownNameError("parameter to vary", name, BOUNDS)
+    kinds.one_of("parameter to vary", name, BOUNDS)
     unit = foot.scale if name == "scale" else 1.0
     if given is None:
         low, high = (end * unit for end in BOUNDS[name])
         return low, high
     ends = checks.array(f"bounds[{name!r}]", given, last=2)  # type: ignore[arg-type]
+    checks.shaped(f"bounds[{name!r}]", ends, (2,))
     low, high = map(float, ends)
     if not low < high:
         remedy = "give the lesser bound first"

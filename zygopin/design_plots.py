@@ -7,8 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
+from zygopin import kinds
 from zygopin.design import Design
 from zygopin.figures import ACCENT, INK, Axes, Unit, new_figure, save_figure, unit_of
+from zygopin.files import check_file
 from zygopin.foot import Foot
 from zygopin.graspable import GraspableRadii
 
@@ -37,6 +39,8 @@ def plot_design(design: Design, path: Path | str) -> Path:
         FileError: The file cannot be written.
         MissingExtraError: Matplotlib is not installed.
     """
+    check_file(path)
+    kinds.instance("design", design, Design)
     unit = unit_of(design.before.foot)
     ends = (design.before.low, design.before.high)
     low, high = (end * unit.per_metre for end in ends)

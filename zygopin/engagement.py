@@ -10,6 +10,9 @@ from zygopin.errors import ParameterError
 from zygopin.finger import Finger
 from zygopin.foot import Foot
 
+MOST_STAGES = 10_000
+"""Values of v that may be asked for at once."""
+
 
 def checked_stages(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """Values of the tendon's map v.
@@ -26,6 +29,10 @@ def checked_stages(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """
     stages = checks.array(name, values)
     checks.shaped(name, stages, (None,))
+    if stages.size > MOST_STAGES:
+        remedy = "draw fewer"
+        allowed = f"at most {MOST_STAGES}"
+        raise ParameterError(f"number of {name}", stages.size, allowed, remedy)
     if not stages.size:
         remedy = "give values of v, such as 0, 0.5 and 1"
         raise ParameterError(f"number of {name}", 0, "at least 1", remedy)

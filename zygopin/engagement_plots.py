@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.engagement import checked_stages, engaged_junctions
 from zygopin.figures import (
     FINE,
@@ -25,6 +25,7 @@ from zygopin.figures import (
     to_hex,
     unit_of,
 )
+from zygopin.files import check_file
 from zygopin.foot import Foot
 from zygopin.reach import find_finger
 
@@ -62,6 +63,8 @@ def plot_engagement(
         ParameterError: A stage is outside [0, 1].
         FileError: The file cannot be written.
     """
+    check_file(path)
+    kinds.instance("foot", foot, Foot)
     toe = find_finger(foot, len(foot.fingers) if finger is None else finger)
     shown = stages if np.ndim(stages) else _equal_steps(stages)
     values, unit = checked_stages("stages", shown), unit_of(foot)

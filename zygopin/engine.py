@@ -10,11 +10,10 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin import clearance
+from zygopin import clearance, kinds
 from zygopin.bones import posed_bones
 from zygopin.branch import Branch
 from zygopin.clearance import Clearance, Floats
-from zygopin.errors import UnknownNameError
 from zygopin.foot import Foot
 
 EngineName = Literal["exact", "fcl"]
@@ -58,6 +57,8 @@ def make_engine(name: str, foot: Foot) -> Engine:
     Raises:
         UnknownNameError: There is no engine of that name.
     """
+    kinds.instance("foot", foot, Foot)
+    kinds.one_of("engine", name, ENGINES)
     if name == "exact":
         return Engine(
             name,
@@ -65,8 +66,6 @@ def make_engine(name: str, foot: Foot) -> Engine:
             partial(posed_bones, foot),
             clearance.distances,
         )
-    if name != "fcl":
-        raise UnknownNameError("engine", name, ENGINES)
     from zygopin import collision  # FCL and Pinocchio take a quarter of a second
     from zygopin.model import FootModel
 

@@ -7,6 +7,10 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
+LINE, PATH, LISTED = 60, 300, 1000
+"""Characters of a value and of a path that a message shows, and entries of a list: what
+is longer is cut, or only counted."""
+
 
 class ZygopinError(Exception):
     """Root of every error that zygopin raises on purpose.
@@ -79,7 +83,7 @@ class FileError(ZygopinError, OSError):
     """
 
     def __init__(self, path: Path | str, problem: str, remedy: str) -> None:
-        super().__init__(f"{path}: {_one_line(problem)}: {remedy}")
+        super().__init__(f"{_shown_path(path)}: {_one_line(problem)}: {remedy}")
         self.path = Path(path)
         self.problem = problem
         self.remedy = remedy
@@ -136,5 +140,16 @@ def _one_line(text: str) -> str:
 
 def _shown(value: object) -> str:
     """A value as a message shows it: one line, not longer than a line."""
-    text = _one_line(repr(value) if isinstance(value, str) else str(value))
-    return text if len(text) <= 60 else f"{text[:57]}..."
+    if isinstance(value, (list, tuple, dict, set)) and len(value) > LISTED:
+        return f"a {type(value).__name__} of {len(value)}"
+    try:
+        text = _one_line(repr(value) if isinstance(value, str) else str(value))
+    except ValueError:  # more digits than Python writes
+        text = f"a huge {type(value).__name__}"
+    return text if len(text) <= LINE else f"{text[: LINE - 3]}..."
+
+
+def _shown_path(path: Path | str) -> str:
+    """A path as a message shows it: whole, but for one that no system would take."""
+    text = _one_line(str(path)) or "''"
+    return text if len(text) <= PATH else f"...{text[3 - PATH :]}"

@@ -2,12 +2,38 @@
 
 from __future__ import annotations
 
+import errno
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
-from zygopin.errors import FileError, ZygopinError
+from zygopin.errors import FileError, ParameterError, ZygopinError
+
+LARGEST = 2**26
+"""Bytes that a text file may have: a device, or a wrong file, may have no end."""
+
+
+def as_path(path: Path | str) -> Path:
+    """A path that names something: an empty text would be the current folder.
+
+    Args:
+        path: What was given.
+
+    Returns:
+        The path.
+
+    Raises:
+        ParameterError: It is neither a text nor a path.
+        FileError: It is empty.
+    """
+    if not isinstance(path, (str, os.PathLike)):
+        remedy = "give a text or a pathlib.Path"
+        raise ParameterError("path", path, "a path", remedy)
+    if not str(path):
+        raise FileError(path, "names nothing", "give a name, such as out")
+    return Path(path)
 
 
 def read_text(path: Path | str) -> str:
@@ -22,17 +48,22 @@ def read_text(path: Path | str) -> str:
     Raises:
         FileError: It cannot be read, or is not UTF-8.
     """
+    place = as_path(path)
     try:
-        return Path(path).read_text(encoding="utf-8")
-    except UnicodeDecodeError as error:
-        remedy = "name a text file"
-        raise FileError(
-            path, "cannot be read: not a UTF-8 text file", remedy
-        ) from error
+        with place.open("rb") as file:
+            content = file.read(LARGEST + 1)
     except (OSError, ValueError) as error:
         problem = getattr(error, "strerror", None) or str(error)
         remedy = "name a text file that can be read"
         raise FileError(path, f"cannot be read: {problem}", remedy) from error
+    if len(content) > LARGEST:
+        remedy = "name a smaller file"
+        raise FileError(path, f"has more than {LARGEST} bytes", remedy)
+    try:
+        return content.decode("utf-8")
+    except UnicodeDecodeError as error:
+        remedy, problem = "name a text file", "cannot be read: not a UTF-8 text file"
+        raise FileError(path, problem, remedy) from error
 
 
 def write_text(path: Path | str, text: str) -> Path:
@@ -83,22 +114,71 @@ def write_stream(path: Path | str, write: Callable[[BinaryIO], object]) -> Path:
     Raises:
         FileError: The path is no regular file, or its folder cannot be written.
     """
-    try:
+    with _named(path, "name a file in a folder that can be written"):
         target = _target(path)
         target.parent.mkdir(parents=True, exist_ok=True)
         _replace(target, write)
+    return Path(path)
+
+
+def check_file(path: Path | str) -> Path:
+    """Raise where a file cannot be written: before the work whose result it gets.
+
+    Args:
+        path: The file.
+
+    Returns:
+        The path.
+
+    Raises:
+        FileError: It is a folder or a device, or there can be no such file.
+    """
+    with _named(path, "name a file in a folder that can be written"):
+        _check_folder(_target(path).parent)
+    return Path(path)
+
+
+def check_folder(path: Path | str) -> Path:
+    """Raise where files cannot be written to a folder: before they are made.
+
+    Args:
+        path: The folder, which need not be there yet.
+
+    Returns:
+        The path.
+
+    Raises:
+        FileError: It is something else, or there can be no such folder.
+    """
+    with _named(path, "name a folder that can be written"):
+        _check_folder(Path(os.path.realpath(as_path(path))))
+    return Path(path)
+
+
+@contextmanager
+def _named(path: Path | str, remedy: str) -> Iterator[None]:
+    """See that what the system refuses is said of the path that was given."""
+    try:
+        yield
     except ZygopinError:
         raise  # what the content could not be made for
     except (OSError, ValueError) as error:
         problem = getattr(error, "strerror", None) or str(error)
-        remedy = "name a file in a folder that can be written"
         raise FileError(path, f"cannot be written: {problem}", remedy) from error
-    return Path(path)
+
+
+def _check_folder(folder: Path) -> None:
+    """The nearest folder that is there can be written to."""
+    there = next(each for each in (folder, *folder.parents) if each.exists())
+    if not there.is_dir():
+        raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR))
+    if not os.access(there, os.W_OK | os.X_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
 
 
 def _target(path: Path | str) -> Path:
     """Where a path leads; a folder or a device is never replaced by a file."""
-    target = Path(os.path.realpath(path))
+    target = Path(os.path.realpath(as_path(path)))
     if target.exists() and not target.is_file():
         raise ValueError("it is not a regular file")
     return target

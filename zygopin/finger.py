@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from zygopin import checks
+from zygopin import checks, kinds
 
 MAX_PHALANGES = 12
 """Phalanges a finger may have: more than twice what any bird has."""
@@ -32,7 +32,7 @@ class Finger:
     reversed_azimuth: float | None = None
 
     def __post_init__(self) -> None:
-        name = checks.identifier("finger.name", self.name)
+        name = kinds.identifier("finger.name", self.name)
         set_field = object.__setattr__
         count = checks.integer(f"{name}.phalanges", self.phalanges, 1, MAX_PHALANGES)
         set_field(self, "phalanges", count)
@@ -60,7 +60,11 @@ def zygodactyl_fingers(splay: float) -> tuple[Finger, ...]:
 
     Returns:
         Fingers 1 to 4 with 2, 3, 4 and 5 phalanges; 2 and 3 point forward.
+
+    Raises:
+        ParameterError: The angle is none, or makes none that a finger may have.
     """
+    splay = checks.angle("splay", splay)
     return (
         Finger("finger1", 2, math.pi - splay, splay_gain=-1),
         Finger("finger2", 3, splay, splay_gain=1),

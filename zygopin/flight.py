@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.errors import ParameterError
 from zygopin.foot import Foot
 from zygopin.kinematics import Controls, as_controls
 from zygopin.motion import PROBES, Law, Motion
 from zygopin.stance import Stance, azimuths_at, levers
+
+STRAIGHT = "0 is the straight joint, 1 the closed one"
+"""What a control says, for messages."""
 
 Floats = NDArray[np.float64]
 
@@ -32,6 +36,15 @@ class Flight:
     motion: Motion
     controls: Law | Controls = 0.0
     reversal: Law | float = 0.0
+
+    def __post_init__(self) -> None:
+        kinds.instance("motion", self.motion, Motion)
+        if not isinstance(self.reversal, Law):
+            checks.unit("reversal", self.reversal)
+        if not isinstance(self.controls, (Law, Mapping)):
+            given = checks.array("controls", self.controls)
+            inside = (given >= 0) & (given <= 1)
+            checks.require("controls", given, inside, "in [0, 1]", STRAIGHT)
 
 
 class FreeFlow:
@@ -56,8 +69,7 @@ class FreeFlow:
         Raises:
             ParameterError: A law's values are of a wrong shape or outside [0, 1].
         """
-        checks.instance("flight", flight, Flight)
-        checks.instance("flight.motion", flight.motion, Motion)
+        kinds.instance("flight", flight, Flight)
         self.foot, self.motion = foot, flight.motion
         self.controls = _controls_law(foot, flight.controls)
         self.reversal = _reversal_law(flight.reversal)
@@ -132,14 +144,14 @@ def _controls_law(foot: Foot, controls: Law | Controls) -> Law:
     """Checked controls over time, of shape (P,)."""
     count = foot.phalanx_count
     if not isinstance(controls, Law):
-        if isinstance(controls, (int, float)):
+        if not isinstance(controls, Mapping) and not np.ndim(controls):
             controls = np.full(count, checks.number("controls", controls))
         controls = Law.constant(as_controls(foot, controls))
     shape = controls.rates.shape[1:]
     if shape != (count,):
         remedy = "give one control for each phalanx"
         raise ParameterError("controls.shape", shape, f"({count},)", remedy)
-    _check_unit("controls", controls, "0 is the straight joint, 1 the closed one")
+    _check_unit("controls", controls, STRAIGHT)
     return controls
 
 

@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.errors import FileError, ParameterError, UnknownNameError, ZygopinError
+from zygopin.files import as_path
 from zygopin.finger import Finger, zygodactyl_fingers
 from zygopin.presets import read_parameters, read_preset
 
@@ -57,7 +58,7 @@ class Foot:
     name: str = "foot"
 
     def __post_init__(self) -> None:
-        checks.identifier("name", self.name)
+        kinds.identifier("name", self.name)
         for field, (allowed, where, remedy) in _RANGES.items():
             value = checks.number(
                 field,
@@ -99,6 +100,7 @@ class Foot:
         Raises:
             FileError: The file cannot be read, or holds no valid foot.
         """
+        path = as_path(path)
         try:
             return cls.from_mapping(read_parameters(path))
         except FileError:
@@ -121,6 +123,9 @@ class Foot:
             UnknownNameError: A field does not exist.
             ParameterError: A value is not allowed.
         """
+        if not isinstance(mapping, Mapping):
+            remedy = "give names of fields and their values"
+            raise ParameterError("mapping", mapping, "a mapping", remedy)
         values = {key: mapping[key] for key in mapping if key not in _METADATA}
         fingers = _listed(values.pop("fingers", ()))
         if "fingers" in mapping and not fingers:

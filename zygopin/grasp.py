@@ -10,14 +10,14 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.blocks import entries
 from zygopin.branch import Branch, check_base
 from zygopin.clearance import Clearance, Floats, least_skin_distance, norm
 from zygopin.contact_products import least_over, tangent_pairs
 from zygopin.directions import FEET
 from zygopin.engine import Engine, EngineName, make_engine
-from zygopin.errors import ParameterError, UnknownNameError
+from zygopin.errors import ParameterError
 from zygopin.foot import Foot
 from zygopin.kinematics import Controls, read_controls
 
@@ -57,8 +57,7 @@ class Criteria:
     tolerance: float | None = None
 
     def __post_init__(self) -> None:
-        if self.reading not in READINGS:
-            raise UnknownNameError("reading", self.reading, READINGS)
+        kinds.one_of("reading", self.reading, READINGS)
         if self.tolerance is not None:
             remedy = "give metres, such as 1e-8"
             tolerance = checks.number(
@@ -76,6 +75,7 @@ class Criteria:
         Raises:
             ParameterError: It is more than `LARGEST_TOLERANCE` of the foot's size.
         """
+        kinds.instance("foot", foot, Foot)
         if self.tolerance is None:
             return TOLERANCE * foot.size
         most = LARGEST_TOLERANCE * foot.size
@@ -146,6 +146,7 @@ class GraspReport:
         Returns:
             The largest |difference| over branch and finger clearances [m].
         """
+        kinds.instance("other", other, GraspReport)
         apart = np.abs(self.clearance - other.clearance)
         some = np.isfinite(self.finger_clearance)  # infinite without a second finger
         fingers = self.finger_clearance[some] - other.finger_clearance[some]
@@ -177,9 +178,11 @@ def check_grasp(
             holds the foot's base.
         UnknownNameError: A finger, engine or reading does not exist.
     """
+    kinds.instance("foot", foot, Foot)
+    kinds.instance("branch", branch, Branch)
     values = read_controls(foot, controls)
-    criteria = criteria or Criteria()
-    made = make_engine(engine, foot) if isinstance(engine, str) else engine
+    criteria = kinds.optional("criteria", criteria, Criteria)
+    made = engine if isinstance(engine, Engine) else make_engine(engine, foot)
     if made.foot != foot:
         remedy = "make the engine for this foot"
         raise ParameterError("engine.foot", made.foot.name, "the foot", remedy)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.errors import ParameterError
 from zygopin.foot import Foot
 from zygopin.perch import LEVELS, search_perch
@@ -97,6 +97,7 @@ def graspable_radii(
     Raises:
         ParameterError: The range is empty, or a number out of range.
     """
+    kinds.instance("foot", foot, Foot)
     low, high = radius_range(low, high)
     count = checks.integer("samples", samples, 2, MOST_SAMPLES)
     fine = TOLERANCE * foot.size if tolerance is None else _positive(tolerance)
@@ -159,11 +160,11 @@ def radius_range(low: float, high: float) -> Interval:
     Raises:
         ParameterError: Not positive, or not ascending.
     """
-    ends = checks.lengths("range of radii", [low, high])
+    ends = checks.length("low", low), checks.length("high", high)
     if not ends[0] < ends[1]:
         remedy = "give the lesser radius first"
         raise ParameterError("range of radii", (low, high), "ascending", remedy)
-    return float(ends[0]), float(ends[1])
+    return ends
 
 
 def _positive(tolerance: object) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -118,8 +119,8 @@ def as_cloud(name: str, points: ArrayLike) -> NDArray[np.float64]:
     Raises:
         ParameterError: No points, not finite, or of another shape.
     """
-    if np.iscomplexobj(points):
-        values = np.asarray(points)
+    values = _as_array(name, points)
+    if values.dtype.kind == "c":
         points = np.stack([values.real, values.imag], axis=-1)
     cloud = checks.array(name, points)
     if cloud.ndim != 2 or 0 in cloud.shape:
@@ -127,6 +128,15 @@ def as_cloud(name: str, points: ArrayLike) -> NDArray[np.float64]:
         remedy = "give complex numbers in one row, or a row for each point"
         raise ParameterError(f"{name}.shape", cloud.shape, allowed, remedy)
     return cloud
+
+
+def _as_array(name: str, points: ArrayLike) -> NDArray[Any]:
+    """Points as an array, not yet checked."""
+    try:
+        return np.asarray(points)
+    except ValueError as error:  # of rows that differ in length
+        remedy = "give a row for each point"
+        raise ParameterError(name, points, "an array", remedy) from error
 
 
 def _first_of_each(cloud: NDArray[np.float64]) -> NDArray[np.intp]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from zygopin import kinds
 from zygopin.closure import (
     ClosureQuality,
     closure_quality,
@@ -61,6 +62,8 @@ def check_hold(
     Raises:
         ParameterError: A batch of stances, or a direction of length 0.
     """
+    kinds.instance("report", report, GraspReport)
+    kinds.instance("strength", strength, Strength)
     if report.touching.ndim == 1 and not report.touching.any():
         unit = unit_direction(direction)
         nothing = PullLimit(unit, 0.0, 0.0, np.zeros((0, 3)), 0.0)

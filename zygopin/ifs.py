@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from zygopin import checks
+from zygopin import checks, kinds, memory
 from zygopin.control_system import (
     MAX_WORDS,
     ControlSystem,
@@ -212,6 +212,7 @@ def iter_reachable(
     Raises:
         ParameterError: A parameter is out of range.
     """
+    kinds.instance("system", system, ControlSystem)
     depth = as_depth(depth)
     block = checks.integer("block", block, 1, 2**40)
     _word_count(system, depth)
@@ -297,8 +298,8 @@ def _word_count(system: ControlSystem, depth: int) -> int:
 def _check_memory(count: int, max_bytes: int | None) -> None:
     """Refuse a set whose points do not fit."""
     remedy = "stream them with iter_reachable, or take fewer levels or phalanges"
-    most = checks.memory_limit(max_bytes)
-    checks.memory(f"{count} points", count * _POINT_BYTES, most, remedy)
+    most = memory.limit(max_bytes)
+    memory.require(f"{count} points", count * _POINT_BYTES, most, remedy)
 
 
 def _controls(control: ArrayLike) -> NDArray[np.float64]:

@@ -6,7 +6,7 @@ and bound on boxes of controls (`control_boxes`). MODEL.md, section 3.
 
 from __future__ import annotations
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.control_boxes import search_boxes
 from zygopin.control_system import (
     ControlSystem,
@@ -129,6 +129,7 @@ def _goal(
     limits: tuple[int, bool],
 ) -> Goal:
     """A checked goal; the limits are the most nodes, and whether to go for nearest."""
+    kinds.instance("system", system, ControlSystem)
     points = as_points("target", target)
     if points.ndim:
         remedy = "ask for one point at a time"

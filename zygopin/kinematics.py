@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.bones import flat_bones, posed_bones
 from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.foot import Foot
@@ -49,6 +49,7 @@ def read_controls(foot: Foot, controls: Controls) -> NDArray[np.float64]:
         ParameterError: A value is outside [0, 1], or the length is wrong.
         UnknownNameError: A finger does not exist.
     """
+    kinds.instance("foot", foot, Foot)
     if type(controls) is np.ndarray and _fine(foot, controls):
         return controls
     if isinstance(controls, Mapping):
@@ -130,7 +131,7 @@ def _room(
     """The array to write to: a new one, or the given one if it will do."""
     if out is None:
         return np.empty(shape)
-    checks.instance("out", out, np.ndarray)
+    kinds.instance("out", out, np.ndarray)
     checks.shaped("out", out, shape)
     if out.dtype != np.float64 or not (out.flags.c_contiguous and out.flags.writeable):
         allowed = "of float64, in C order, and writeable"
@@ -151,6 +152,7 @@ def as_azimuths(foot: Foot, azimuths: ArrayLike | None) -> NDArray[np.float64]:
     Raises:
         ParameterError: An angle is not finite, or the length is wrong.
     """
+    kinds.instance("foot", foot, Foot)
     if azimuths is None:
         azimuths = [finger.azimuth for finger in foot.fingers]
     return checks.array("azimuths", azimuths, last=len(foot.fingers))

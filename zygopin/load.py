@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.contacts import Contacts, Floats
 from zygopin.errors import ParameterError
 from zygopin.programme import maximise_last
@@ -86,6 +86,7 @@ def pull_limit(
     Raises:
         ParameterError: A direction of length 0, or shapes that do not fit.
     """
+    kinds.instance("contacts", contacts, Contacts)
     unit, where = unit_direction(direction), checks.places("point", point)
     checks.shaped("point", where, (3,))
     pull = contacts.wrench_at(unit, where)
@@ -121,11 +122,12 @@ def tilt_limit(
     Raises:
         ParameterError: A mass that is not positive, or a centre of no shape (3,).
     """
+    kinds.instance("contacts", contacts, Contacts)
     weight = GRAVITY * checks.number(
         "mass",
         mass,
         allowed="a positive number of kilograms",
-        where=lambda kilograms: kilograms > 0,
+        where=lambda kilograms: 0 < kilograms <= checks.LARGEST,
         remedy="give the body's mass, such as 0.04",
     )
     centre = checks.places("centre_of_mass", centre_of_mass)
@@ -205,6 +207,8 @@ def _largest(
     λ ≥ 0, what motors and stops add, and the multiple: maximise it with
     Σ λ w + multiple·pull + load = 0 and Σ λ ≤ 1 per contact.
     """
+    kinds.instance("contacts", contacts, Contacts)
+    kinds.instance("strength", strength, Strength)
     edges = strength.friction.forces(contacts.normals, around=around)
     count, sides, _ = edges.shape
     wrenches = contacts.wrenches(edges).reshape(-1, 6).T

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin import checks, names
+from zygopin import checks, kinds, names
 from zygopin.description import to_urdf
 from zygopin.foot import Foot
 from zygopin.kinematics import Controls, as_controls
@@ -48,6 +48,7 @@ def to_glb(foot: Foot, controls: Controls | None = None) -> bytes:
         ParameterError: A control is outside [0, 1], or the shape is wrong.
         UnknownNameError: A finger does not exist.
     """
+    kinds.instance("foot", foot, Foot)
     count = foot.phalanx_count
     values = as_controls(foot, np.zeros(count) if controls is None else controls)
     checks.shaped("controls", values, (count,))

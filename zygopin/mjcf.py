@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from xml.etree import ElementTree as ET
 
-from zygopin import dynamics, names
+from zygopin import checks, dynamics, kinds, names
 from zygopin.adjacency import touching_links
 from zygopin.errors import DescriptionError
 from zygopin.foot import Foot
@@ -100,6 +100,9 @@ def to_mjcf(foot: Foot, *, tendon: bool = False, free: bool = False) -> str:
         DescriptionError: The template does not expand, or a phalanx is too light for
             MuJoCo.
     """
+    kinds.instance("foot", foot, Foot)
+    checks.flag("tendon", tendon)
+    checks.flag("free", free)
     simulated = SimulatedFoot(foot)
     _check_inertias(simulated.bodies)
     root = ET.Element("mujoco", model=foot.name)

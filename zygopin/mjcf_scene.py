@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from xml.etree import ElementTree as ET
 
+from zygopin import kinds
 from zygopin.foot import Foot
 from zygopin.mjcf_bodies import brief
 from zygopin.poses import PERCH_RADIUS, standard_perch
@@ -32,6 +33,8 @@ def to_mjcf_scene(foot: Foot, model: str) -> str:
     Returns:
         The scene [m], indented, with a newline at the end.
     """
+    kinds.text("model", model)
+    kinds.instance("foot", foot, Foot)
     root = ET.Element("mujoco", model=f"{foot.name} scene")
     root.append(ET.Comment(_NOTE))
     ET.SubElement(root, "include", file=model)

@@ -10,7 +10,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
-from zygopin import checks, names
+from zygopin import checks, kinds, names
 from zygopin.description import to_urdf
 from zygopin.errors import DescriptionError, ParameterError
 from zygopin.foot import Foot
@@ -37,8 +37,9 @@ class FootModel:
     """
 
     def __init__(self, foot: Foot, urdf: str | None = None) -> None:
+        kinds.instance("foot", foot, Foot)
         self.foot = foot
-        self.urdf = to_urdf(foot) if urdf is None else urdf
+        self.urdf = to_urdf(foot) if urdf is None else kinds.text("urdf", urdf)
         self.model: pin.Model = _read(self.urdf, foot)
         turning = [finger for finger in foot.fingers if names.is_reversible(finger)]
         self._turning = [foot.fingers.index(finger) for finger in turning]
@@ -65,7 +66,11 @@ class FootModel:
         Returns:
             Indices, shape (n,).
         """
-        ids = [self.model.getJointId(joint) for joint in joints]
+        if isinstance(joints, str) or not isinstance(joints, Iterable):
+            raise ParameterError("joints", joints, "a list", "list names of joints")
+        known = self.model.names[1:]  # but the universe, which does not move
+        wanted = [kinds.one_of("joint", joint, known) for joint in joints]
+        ids = [self.model.getJointId(joint) for joint in wanted]
         return np.array([self.model.idx_qs[i] for i in ids], dtype=np.intp)
 
     def configuration(

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.errors import ParameterError
 from zygopin.rotations import ORTHONORMAL, angles_between, as_rotations, turns_between
 
@@ -121,6 +121,7 @@ class Law:
         Returns:
             The bound [1/s], shape (…).
         """
+        start, end = checks.number("start", start), checks.number("end", end)
         return _largest(self.times, self.rates, start, end)
 
 
@@ -246,6 +247,7 @@ class Motion:
         Returns:
             Speed [m/s] and angular speed [rad/s].
         """
+        start, end = checks.number("start", start), checks.number("end", end)
         speed = _largest(self.times, self.speeds, start, end)
         turn = _largest(self.times, self.turn_rates, start, end)
         return float(speed), float(turn)
@@ -272,6 +274,7 @@ def _lines(times: Floats, values: Floats) -> Callable[[Floats], Floats]:
 
 def _called(name: str, function: Callable[[float], ArrayLike]) -> Callable[..., Floats]:
     """A function of one instant as one of several, with its failures named."""
+    kinds.callable_given(name, function)
 
     def value(time: float) -> Floats:
         try:
@@ -305,8 +308,8 @@ def _probes(end: float) -> Floats:
     last = checks.number(
         "end",
         end,
-        allowed="a time > 0",
-        where=lambda x: x > 0,
+        allowed=f"a time > 0, up to {checks.LARGEST:g}",
+        where=lambda x: 0 < x <= checks.LARGEST,
         remedy="give seconds",
     )
     return np.linspace(0, last, PROBES)
@@ -335,7 +338,9 @@ def _as_bound(name: str, value: ArrayLike, shape: tuple[int, ...]) -> Floats:
     if bound.shape not in ((), shape):
         remedy = "give one bound, or one for each value"
         raise ParameterError(f"{name}.shape", bound.shape, f"{shape}", remedy)
-    checks.require(name, bound, bound >= 0, "at least 0", "give a bound per second")
+    good = (bound >= 0) & (bound <= checks.LARGEST)
+    allowed = f"at least 0 and at most {checks.LARGEST:g}"
+    checks.require(name, bound, good, allowed, "give a bound per second")
     return np.broadcast_to(bound, shape)
 
 

@@ -38,7 +38,7 @@ class Sphere:
     centre: NDArray[np.float64]
 
     def __init__(self, radius: float, centre: ArrayLike) -> None:
-        object.__setattr__(self, "radius", _length("sphere.radius", radius))
+        object.__setattr__(self, "radius", checks.length("sphere.radius", radius))
         object.__setattr__(self, "centre", _places("sphere.centre", centre, (3,)))
 
 
@@ -87,7 +87,7 @@ class Capsule:
             remedy = "move them apart, or take a Sphere"
             name = "distance between capsule.ends"
             raise ParameterError(name, length, allowed, remedy)
-        object.__setattr__(self, "radius", _length("capsule.radius", radius))
+        object.__setattr__(self, "radius", checks.length("capsule.radius", radius))
         object.__setattr__(self, "ends", ends)
 
 
@@ -180,13 +180,6 @@ def obstacle_noun(obstacle: Obstacle) -> str:
         A noun in plain English, such as `ball`.
     """
     return _NOUNS[type(obstacle)]
-
-
-def _length(name: str, value: ArrayLike) -> float:
-    """One positive length."""
-    length = checks.lengths(name, value)
-    checks.shaped(name, length, ())
-    return float(length)
 
 
 def _places(

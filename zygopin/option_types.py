@@ -13,6 +13,9 @@ Interval = tuple[float, float]
 MOST_CELLS = 4096
 """Cells along one side of a grid."""
 
+DIGITS = 9
+"""Digits of a text that is read as a number of a finger."""
+
 
 class Range(click.ParamType):  # type: ignore[type-arg,unused-ignore]
     """LOW:HIGH, held in SI.
@@ -74,12 +77,35 @@ class Cells(click.ParamType):  # type: ignore[type-arg,unused-ignore]
             return value
         rows, cross, columns = str(value).partition("x")
         counts = [text.strip() for text in (rows, columns if cross else rows)]
-        if not all(
-            text.isdecimal() and 2 <= int(text) <= MOST_CELLS for text in counts
-        ):
+        if not all(is_count(text, MOST_CELLS) for text in counts):
             words = f"a number from 2 to {MOST_CELLS}, or two such as 64x128"
             self.fail(f"{value!r} is not {words}.", param, ctx)
         return int(counts[0]), int(counts[1])
+
+
+def is_count(text: str, most: int) -> bool:
+    """Whether a text is a whole number of at least 2.
+
+    Args:
+        text: What was typed.
+        most: The largest number that it may be.
+
+    Returns:
+        The answer; a text longer than the largest number is not read as one.
+    """
+    return text.isdecimal() and len(text) <= len(str(most)) and 2 <= int(text) <= most
+
+
+def named_finger(text: str) -> str | int:
+    """A finger's number, where digits are given, or its name.
+
+    Args:
+        text: What was typed.
+
+    Returns:
+        The number or the name.
+    """
+    return int(text) if text.isdecimal() and len(text) <= DIGITS else text
 
 
 def finger_pair(text: str) -> tuple[str | int, str | int]:
@@ -94,7 +120,7 @@ def finger_pair(text: str) -> tuple[str | int, str | int]:
     Raises:
         UsageError: They are not two.
     """
-    names = [int(name) if name.isdecimal() else name for name in text.split(",")]
+    names = [named_finger(name) for name in text.split(",")]
     if len(names) != 2:
         raise click.UsageError(f"--pair = {text} is not two fingers: try 1,3.")
     return names[0], names[1]

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from zygopin.errors import ParameterError
+from zygopin.path_options import PATH
 
 if TYPE_CHECKING:  # commands load what they use, so that --help is quick
     from zygopin.branch import Branch
@@ -159,7 +160,7 @@ def preset_options(command: Command) -> Command:
         click.option(
             "--foot",
             "foot_file",
-            type=click.Path(path_type=Path),
+            type=PATH,
             help="A foot of your own, YAML.",
         ),
         click.option(
@@ -292,9 +293,10 @@ def make_foot(preset: str | None, foot_file: Path | None, **changes: Any) -> Foo
 
     if preset is not None and foot_file is not None:
         raise click.UsageError("--preset and --foot exclude each other: give one.")
-    foot = (
-        Foot.preset(preset or "parrot") if foot_file is None else Foot.load(foot_file)
-    )
+    if foot_file is None:
+        foot = Foot.preset("parrot" if preset is None else preset)
+    else:
+        foot = Foot.load(foot_file)
     given = {name: value for name, value in changes.items() if value is not None}
     try:
         return foot.replace(**given)

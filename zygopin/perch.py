@@ -9,11 +9,11 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.branch import Branch
 from zygopin.clearance import Floats
 from zygopin.contacts import Friction
-from zygopin.errors import ParameterError, UnknownNameError
+from zygopin.errors import ParameterError
 from zygopin.foot import Foot
 from zygopin.grasp import GraspReport, check_branch, check_grasp
 from zygopin.perch_candidates import (
@@ -182,6 +182,7 @@ def search_perch(
     Raises:
         ParameterError: As for `plan_perch`.
     """
+    checks.flag("find_height", find_height)
     levels = _checked(foot, branch, levels)
     found = search_candidates(foot, branch, levels, find_height=find_height)
     row, report = _best(found, np.zeros(1, dtype=np.intp), lambda _: 0.0)
@@ -234,13 +235,16 @@ def perch_solutions(
 
 def _value(prefer: Preference, strength: Strength | None) -> Value:
     """What a report is worth to those who prefer it so."""
-    if prefer not in SHORTLIST:
-        raise UnknownNameError("preference", prefer, tuple(SHORTLIST))
+    if strength is not None:
+        kinds.instance("strength", strength, Strength)
+    kinds.one_of("preference", prefer, SHORTLIST)
     return partial(preference_value, prefer, strength or Strength(1.0, Friction()))
 
 
 def _checked(foot: Foot, branch: Branch, levels: int) -> int:
     """The number of levels, once all is known to be in order."""
+    kinds.instance("foot", foot, Foot)
+    kinds.instance("branch", branch, Branch)
     if branch.batch_shape:
         remedy = "plan for one branch at a time"
         raise ParameterError("branch batch", branch.batch_shape, "()", remedy)
@@ -253,6 +257,7 @@ def _candidates(
     foot: Foot, branch: Branch, find_height: bool, levels: int
 ) -> tuple[Candidates, Column | None]:
     """Poses of the foot; without a grasp among them the heights where none is found."""
+    checks.flag("find_height", find_height)
     levels = _checked(foot, branch, levels)
     found = search_candidates(foot, branch, levels, find_height=find_height)
     if len(found.grasping):

@@ -63,5 +63,5 @@ class Placement:
         Raises:
             ParameterError: A radius is not positive, or a number not finite.
         """
-        up = np.asarray(height, float)[..., None] * (0.0, 0.0, 1.0)
+        up = checks.array("height", height)[..., None] * (0.0, 0.0, 1.0)
         return Branch(radius, self.centre + up, self.axis)

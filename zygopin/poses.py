@@ -8,7 +8,7 @@ from itertools import chain
 
 import numpy as np
 
-from zygopin import names
+from zygopin import kinds, names
 from zygopin.branch import Branch
 from zygopin.foot import Foot
 from zygopin.perch import PerchPlan, plan_perch
@@ -38,6 +38,7 @@ def named_poses(foot: Foot) -> dict[str, dict[str, float]]:
     Returns:
         {pose: {joint: angle [rad]}}, joints in the order of `names.moving_joints`.
     """
+    kinds.instance("foot", foot, Foot)
     still = dict.fromkeys(names.moving_joints(foot), 0.0)
     joints = [*chain.from_iterable(map(names.flexion_joints, foot.fingers))]
     turning = [*filter(names.is_reversible, foot.fingers)]

@@ -8,7 +8,8 @@ from typing import Any
 
 import yaml
 
-from zygopin.errors import FileError, UnknownNameError
+from zygopin import kinds
+from zygopin.errors import FileError
 from zygopin.files import read_text, write_text
 from zygopin.paths import PRESETS_PATH
 
@@ -35,8 +36,7 @@ def read_preset(name: str) -> dict[str, Any]:
     Raises:
         UnknownNameError: There is no preset of that name.
     """
-    if name not in preset_names():
-        raise UnknownNameError("preset", name, preset_names())
+    kinds.one_of("preset", name, preset_names())
     return read_parameters(PRESETS_PATH / f"{name}.yaml")
 
 

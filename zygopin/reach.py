@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.control_system import Levels
 from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.extent import Hull, convex_hull
@@ -77,6 +77,8 @@ class FingerReach:
         Returns:
             Points [m], shape (…, 3).
         """
+        if not isinstance(indices, slice):
+            indices = checks.indices("indices", indices, len(self.plane.points))
         chosen = self.plane.points[indices]
         return to_space(self.foot, self.finger.name, chosen)
 
@@ -95,6 +97,7 @@ def find_finger(foot: Foot, finger: str | int) -> Finger:
         UnknownNameError: There is no finger of that name.
         ParameterError: There is no finger of that number.
     """
+    kinds.instance("foot", foot, Foot)
     if not isinstance(finger, str):
         number = checks.integer("finger", finger, 1, len(foot.fingers))
         return foot.fingers[number - 1]

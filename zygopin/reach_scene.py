@@ -11,11 +11,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from zygopin import checks, kinds
 from zygopin.camera import framed
 from zygopin.canvas import Canvas
 from zygopin.caption import Key, Lengths, foot_rows, legend, section
 from zygopin.drawing import draw_axes, draw_foot
-from zygopin.files import write_text
+from zygopin.files import check_file, write_text
 from zygopin.foot import Foot
 from zygopin.kinematics import forward_kinematics
 from zygopin.looks import Paint, drawn_radii, finger_paint
@@ -89,9 +90,17 @@ def export_reach_scene(
         ParameterError: The levels are out of range, or the points need more memory.
         FileError: The file cannot be written.
     """
+    check_file(path)
+    kinds.instance("foot", foot, Foot)
+    if levels is not None:
+        levels = checks.integer("levels", levels, 2, MOST_POINTS)
     clouds = list(junction_clouds(foot, levels))
     bones = forward_kinematics(foot, np.full(foot.phalanx_count, DRAWN_CONTROL))
-    title = f"Reach of {foot.name.replace('_', ' ')}" if title is None else title
+    title = (
+        f"Reach of {foot.name.replace('_', ' ')}"
+        if title is None
+        else kinds.text("title", title)
+    )
     seen = np.concatenate([bones.reshape(-1, 3), *(cloud.dots for cloud in clouds)])
     radii = np.full(len(seen), float(drawn_radii(foot).max()))
     view = framed(seen, radii, EYE / np.linalg.norm(EYE))

@@ -31,7 +31,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.errors import ParameterError
 from zygopin.finger import Finger
 from zygopin.foot import Foot
@@ -101,6 +101,7 @@ class ContactKept:
         Returns:
             The verdict.
         """
+        first, last = checks.unit("first", first), checks.unit("last", last)
         return any(low <= first <= last <= high for low, high in self.together)
 
 
@@ -154,6 +155,7 @@ def contact_kept(
     Raises:
         ParameterError: A value is out of range or of a wrong shape.
     """
+    kinds.instance("foot", foot, Foot)
     solid, within = as_obstacle(obstacle), _tolerance(foot, tolerance)
     pose = Motion.resting(base).at(np.zeros(1))[0]
     turns = as_azimuths(foot, azimuths)
@@ -188,6 +190,7 @@ def counterexample(
         ParameterError: v₁ is out of range, the skin is too thick for any ball, or
             another finger keeps the ball beyond v₁.
     """
+    kinds.instance("foot", foot, Foot)
     toe = find_finger(foot, len(foot.fingers) if finger is None else finger)
     last = _checked_loss(foot, lost_at)
     first = foot.finger_slices[toe.name].start

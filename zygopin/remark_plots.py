@@ -27,6 +27,7 @@ from zygopin.figures import (
     save_figure,
     unit_of,
 )
+from zygopin.files import check_file
 from zygopin.foot import Foot
 from zygopin.looks import finger_paint
 from zygopin.phalanx_sweep import Sweep, about_z
@@ -65,6 +66,7 @@ def plot_remark(
         ParameterError: There is no such ball.
         FileError: The file cannot be written.
     """
+    check_file(path)
     found, unit = counterexample(foot, finger=finger, lost_at=lost_at), unit_of(foot)
     figure = new_figure(11.0, 4.8)
     left, right = figure.subplots(1, 2, width_ratios=(1.2, 1))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.branch import Branch, branch_axis
 from zygopin.errors import ParameterError
 from zygopin.foot import Foot
@@ -33,10 +33,11 @@ def resting_branch(
     Raises:
         ParameterError: The radius is no positive length, or the branch is upright.
     """
+    kinds.instance("foot", foot, Foot)
     axis, slope = branch_axis(yaw, pitch), math.cos(pitch)
     if abs(slope) < LEVEL:
         remedy = "give a slope that a foot can sit on, such as 0.5"
         raise ParameterError("pitch", pitch, "a slope", remedy)
-    (thick,) = checks.lengths("radius", [radius])
-    reach = float(thick) + float(foot.radii.max())
-    return Branch(float(thick), (0.0, 0.0, -reach / abs(slope)), axis)
+    thick = checks.length("radius", radius)
+    reach = thick + float(foot.radii.max())
+    return Branch(thick, (0.0, 0.0, -reach / abs(slope)), axis)

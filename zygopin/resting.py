@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from zygopin import checks
+from zygopin import checks, kinds, memory
 from zygopin.branch_solutions import (
     BranchSolutions,
     Found,
@@ -120,13 +120,14 @@ def resting_radii(
             the axis, or the equations need more memory than half of the machine's.
         UnknownNameError: There is no such finger or section.
     """
+    kinds.instance("foot", foot, Foot)
     placement = Placement(axis)
     check_section(section, placement)
     index = foot.fingers.index(find_finger(foot, finger))
     values, count = control_set(levels), line_count(foot, index, levels)
     remedy = "take fewer levels"
-    most = checks.memory_limit()
-    checks.memory(f"{count} equations", count * ROOT_BYTES, most, remedy)
+    most = memory.limit()
+    memory.require(f"{count} equations", count * ROOT_BYTES, most, remedy)
     parts = []
     phalanges = foot.fingers[index].phalanges
     for rank in range(1, phalanges + 1):
@@ -246,7 +247,7 @@ def _matched(
     open_ended = order[len(sized) :]
     count = int((last - first).sum()) + len(one) * len(open_ended)
     each, remedy = 2 * search.bytes_each, "take fewer levels"
-    checks.memory(f"{count} solutions", count * each, checks.memory_limit(), remedy)
+    memory.require(f"{count} solutions", count * each, memory.limit(), remedy)
     number = last - first
     row = np.repeat(np.arange(len(one)), number)
     place = np.arange(len(row)) - np.repeat(np.cumsum(number) - number, number)

@@ -10,8 +10,9 @@ from typing import Literal
 
 import numpy as np
 
+from zygopin import kinds
 from zygopin.clearance import Floats
-from zygopin.errors import ParameterError, UnknownNameError
+from zygopin.errors import ParameterError
 from zygopin.foot import Foot
 from zygopin.placement import Placement
 from zygopin.tangent_lines import (
@@ -61,8 +62,7 @@ def check_section(section: Section, placement: Placement) -> None:
         UnknownNameError: There is no such section.
         ParameterError: It does not apply to the axis.
     """
-    if section not in SECTIONS:
-        raise UnknownNameError("section", section, SECTIONS)
+    kinds.one_of("section", section, SECTIONS)
     axis = np.asarray(placement.axis)
     if section != "geometric" and abs(axis[1]) != 1:
         remedy = "take the section 'geometric', which holds for every axis"

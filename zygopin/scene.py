@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from zygopin import kinds
 from zygopin.camera import View, framed, grasp_direction
 from zygopin.canvas import Canvas
 from zygopin.caption import Key, caption
@@ -25,7 +26,7 @@ from zygopin.drawing import (
     stretch_beyond,
 )
 from zygopin.errors import ParameterError
-from zygopin.files import write_text
+from zygopin.files import check_file, write_text
 from zygopin.foot import Foot
 from zygopin.grasp import GraspReport
 from zygopin.hold import Hold
@@ -62,8 +63,12 @@ def export_scene(
         ParameterError: The report is of a batch.
         FileError: The file cannot be written.
     """
+    check_file(path)
+    kinds.instance("report", report, GraspReport)
+    if hold is not None:
+        kinds.instance("hold", hold, Hold)
     _check_single(report)
-    title = _default_title(report) if title is None else title
+    title = _default_title(report) if title is None else kinds.text("title", title)
     view = grasp_view(report, hold)
     recorder = Recorder()
     set_stage(recorder, view)

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.branch import Branch
 from zygopin.clearance import (
     Clearance,
@@ -20,7 +20,6 @@ from zygopin.clearance import (
     segment_offset,
 )
 from zygopin.engine import ENGINES, EngineName
-from zygopin.errors import UnknownNameError
 from zygopin.obstacle import (
     Box,
     Capsule,
@@ -73,8 +72,8 @@ def obstacle_clearance(
             negative; or no obstacle.
         UnknownNameError: There is no engine of that name.
     """
-    if engine not in (None, *ENGINES):
-        raise UnknownNameError("engine", engine, ENGINES)
+    if engine is not None:
+        kinds.one_of("engine", engine, ENGINES)
     solid = as_obstacle(obstacle)
     lines, skins = _checked(bones, radii)
     if isinstance(solid, Branch):

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize_scalar
 
-from zygopin import checks, names
-from zygopin.errors import ParameterError, UnknownNameError
+from zygopin import checks, kinds, names
+from zygopin.errors import ParameterError
 from zygopin.extent import convex_hull
 from zygopin.foot import Foot
 from zygopin.kinematics import Controls, as_controls, forward_kinematics
@@ -130,6 +130,7 @@ def talon_hull_area(
             no toe of the foot can turn.
         UnknownNameError: A finger does not exist.
     """
+    kinds.instance("foot", foot, Foot)
     talons = [part.stop - 1 for part in foot.finger_slices.values()]
     bones = _projected(foot, controls, reversal)[..., talons, 1]
     areas = _each(bones, 1, lambda points: convex_hull(points).area)
@@ -168,9 +169,9 @@ def strike_area(
             can turn.
         UnknownNameError: A finger does not exist, or `phalanges` is neither.
     """
+    kinds.instance("foot", foot, Foot)
     radius = _checked_radius(radius)
-    if phalanges not in PHALANGES:
-        raise UnknownNameError("phalanges", phalanges, PHALANGES)
+    kinds.one_of("phalanges", phalanges, PHALANGES)
     counted = foot.rank_of_phalanx <= (1 if phalanges == "first" else math.inf)
     bones = _projected(foot, controls, reversal)[..., counted, :]
     radii = foot.radii[counted] + radius

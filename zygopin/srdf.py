@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import chain
 from xml.etree import ElementTree as ET
 
-from zygopin import names
+from zygopin import checks, kinds, names
 from zygopin.adjacency import touching_links
 from zygopin.finger import Finger
 from zygopin.foot import Foot
@@ -36,6 +36,8 @@ def to_srdf(foot: Foot, *, tendon: bool = False) -> str:
     Returns:
         The SRDF [rad], indented, with a newline at the end.
     """
+    kinds.instance("foot", foot, Foot)
+    checks.flag("tendon", tendon)
     root = ET.Element("robot", name=foot.name)
     fixed = {"name": _WORLD, "type": "fixed", "parent_frame": _WORLD}
     ET.SubElement(root, "virtual_joint", fixed, child_link=names.BASE)

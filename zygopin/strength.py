@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.contacts import Floats, Friction
 
 
@@ -58,13 +58,16 @@ class Strength:
     drive: Drive | None = None
 
     def __post_init__(self) -> None:
+        kinds.instance("friction", self.friction, Friction)
+        if self.drive is not None:
+            kinds.instance("drive", self.drive, Drive)
         if self.drive is not None and self.normal_force == math.inf:
             return
         value = checks.number(
             "toe force",
             self.normal_force,
             allowed="a positive number of newtons",
-            where=lambda force: force > 0,
+            where=lambda force: 0 < force <= checks.LARGEST,
             remedy="give what one phalanx can press, such as 1",
         )
         object.__setattr__(self, "normal_force", value)

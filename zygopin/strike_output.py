@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from zygopin import checks
+from zygopin import kinds
 from zygopin.archive import write_archive
 from zygopin.errors import ParameterError
-from zygopin.files import write_text
+from zygopin.files import check_file, write_text
 from zygopin.kinematics import by_finger
 from zygopin.obstacle import Obstacle, obstacle_noun
 from zygopin.trajectory import StrikeEvent, StrikeTrajectory
@@ -82,8 +82,8 @@ def save_strike(trajectory: StrikeTrajectory, path: Path | str) -> Path:
         ParameterError: The file's name ends otherwise.
         FileError: The file cannot be written.
     """
-    checks.instance("trajectory", trajectory, StrikeTrajectory)
-    document, suffix = strike_document(trajectory), Path(path).suffix.lower()
+    kinds.instance("trajectory", trajectory, StrikeTrajectory)
+    document, suffix = strike_document(trajectory), check_file(path).suffix.lower()
     series = {name: getattr(trajectory, name) for name in SERIES}
     if suffix == ".npz":
         text = json.dumps(document, allow_nan=False)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from zygopin import checks
+from zygopin import kinds
 from zygopin.figures import (
     INK,
     PALE,
@@ -17,6 +17,7 @@ from zygopin.figures import (
     save_figure,
     unit_of,
 )
+from zygopin.files import check_file
 from zygopin.finger import Finger
 from zygopin.looks import finger_paint
 from zygopin.obstacle import obstacle_noun
@@ -67,7 +68,8 @@ def plot_strike(trajectory: StrikeTrajectory, path: Path | str) -> Path:
     Raises:
         FileError: The file cannot be written.
     """
-    checks.instance("trajectory", trajectory, StrikeTrajectory)
+    check_file(path)
+    kinds.instance("trajectory", trajectory, StrikeTrajectory)
     foot, spans = trajectory.foot, _spans(trajectory)
     rows = 1 + len(foot.fingers)
     figure = new_figure(5.4 * len(spans), 3.4 + 1.05 * len(foot.fingers))

@@ -7,13 +7,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from zygopin import kinds
 from zygopin.branch import Branch
 from zygopin.camera import DISTANCE, View, framed, wrap_direction
 from zygopin.canvas import Canvas
 from zygopin.caption import Key
 from zygopin.drawing import STABLE, draw_axes, draw_foot, moved_parts, stretch_beyond
 from zygopin.errors import ParameterError
-from zygopin.files import write_text
+from zygopin.files import check_file, write_text
 from zygopin.looks import Paint, drawn_radii, finger_paint
 from zygopin.obstacle import Capsule, obstacle_noun
 from zygopin.obstacle_drawing import (
@@ -78,11 +79,12 @@ def export_strike(
         ParameterError: The trajectory is of another type.
         FileError: The file cannot be written.
     """
+    check_file(path)
     if not isinstance(trajectory, StrikeTrajectory):
         remedy = "pass what simulate_strike returned"
         given = type(trajectory).__name__
         raise ParameterError("trajectory", given, "a StrikeTrajectory", remedy)
-    title = _default_title(trajectory) if title is None else title
+    title = _default_title(trajectory) if title is None else kinds.text("title", title)
     frames, spans = kept_frames(trajectory), mode_spans(trajectory)
     view = strike_view(trajectory)
     recorder = Recorder()

@@ -8,6 +8,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from zygopin.errors import FileError, MissingExtraError
+from zygopin.files import as_path, check_folder
 from zygopin.sweep_dataset import Dataset, xarray
 
 NEEDED = {".nc": "h5netcdf", ".zarr": "zarr"}
@@ -30,7 +31,7 @@ def check_output(path: Path | str) -> Path:
         FileError: Another suffix, or a folder that holds no Zarr dataset.
         MissingExtraError: What writes such a file is not installed.
     """
-    target = Path(path)
+    target = as_path(path)
     if target.suffix not in NEEDED:
         remedy = "end its name with .nc for netCDF or .zarr for Zarr"
         raise FileError(path, "is of no kind that a sweep is saved as", remedy)
@@ -40,6 +41,7 @@ def check_output(path: Path | str) -> Path:
     if target.exists() and not wanted:
         problem = f"cannot be replaced: it is no {target.suffix} dataset"
         raise FileError(path, problem, "name another file")
+    check_folder(target.parent)
     return target
 
 

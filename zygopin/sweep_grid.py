@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.branch import Branch, branch_axis
-from zygopin.errors import ParameterError, UnknownNameError
+from zygopin.errors import ParameterError
 from zygopin.finger import MAX_PHALANGES
 from zygopin.foot import Foot
 from zygopin.rest import resting_branch
@@ -97,14 +97,16 @@ class SweepGrid:
             ParameterError: A value is no finite number, occurs twice, or the radius
                 is missing.
         """
-        checks.instance("foot", foot, Foot)
+        kinds.instance("foot", foot, Foot)
+        if not isinstance(grid, Mapping):
+            remedy = "give names of quantities and their values"
+            raise ParameterError("grid", grid, "a mapping", remedy)
         if "radius" not in grid:
             remedy = "give metres, such as [0.004, 0.008]"
             raise ParameterError("grid['radius']", None, "given", remedy)
         fixed, axes = dict(DEFAULTS), {}
         for name, given in grid.items():
-            if name not in QUANTITIES:
-                raise UnknownNameError("quantity of a sweep", name, QUANTITIES)
+            kinds.one_of("quantity of a sweep", name, QUANTITIES)
             values, single = _parsed(foot, name, given)
             if single:
                 fixed[name] = values[0]
@@ -204,8 +206,7 @@ def _parsed(foot: Foot, name: str, given: Any) -> tuple[tuple[Value, ...], bool]
     if name == "phalanges":
         return _parsed_counts(foot, given)
     if name == "height" and isinstance(given, str):
-        if given not in (REST, FOUND):
-            raise UnknownNameError("height", given, (REST, FOUND))
+        kinds.one_of("height", given, (REST, FOUND))
         return (given,), True
     values = checks.array(f"grid[{name!r}]", given)
     if values.ndim > 1:

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import re
-import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
-from zygopin.archive import write_archive
+from zygopin.archive import read_archive, write_archive
 from zygopin.errors import FileError
 from zygopin.sweep_cell import RESULTS, Arrays, Chunk
 
@@ -45,9 +42,8 @@ class Parts:
             Arrays by the names of `RESULTS`, or None.
         """
         try:
-            with np.load(self._path(chunk), allow_pickle=False) as archive:
-                arrays = {name: archive[name] for name in RESULTS}
-        except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+            arrays = read_archive(self._path(chunk), RESULTS, "chunk")
+        except FileError:
             return None
         sound = all(
             arrays[name].shape == shape and arrays[name].dtype == RESULTS[name].dtype

@@ -21,12 +21,12 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.advancement import Look, first_reached, steps_by_speed
 from zygopin.clearance import Clearance
 from zygopin.closing import Closing
 from zygopin.engine import ENGINES, EngineName
-from zygopin.errors import ParameterError, UnknownNameError
+from zygopin.errors import ParameterError
 from zygopin.flight import Flight, FreeFlow
 from zygopin.foot import Foot
 from zygopin.grasp import Criteria
@@ -77,10 +77,10 @@ class Contact:
     engine: EngineName | None = None
 
     def __post_init__(self) -> None:
-        if self.sensing not in (None, *SENSING):
-            raise UnknownNameError("sensing", self.sensing, SENSING)
-        if self.engine not in (None, *ENGINES):
-            raise UnknownNameError("engine", self.engine, ENGINES)
+        if self.sensing is not None:
+            kinds.one_of("sensing", self.sensing, SENSING)
+        if self.engine is not None:
+            kinds.one_of("engine", self.engine, ENGINES)
         Criteria(tolerance=self.tolerance)
 
 
@@ -142,11 +142,10 @@ class TendonFoot:
             ParameterError: A value is out of range, or the obstacle already holds
                 the base.
         """
-        checks.instance("foot", foot, Foot)
+        kinds.instance("foot", foot, Foot)
         self.foot, self.obstacle = foot, as_obstacle(obstacle)
-        self.closing, self.contact = closing or Closing(), contact or Contact()
-        checks.instance("closing", self.closing, Closing)
-        checks.instance("contact", self.contact, Contact)
+        self.closing = kinds.optional("closing", closing, Closing)
+        self.contact = kinds.optional("contact", contact, Contact)
         self.flow = FreeFlow(foot, flight)
         self.tolerance = Criteria(tolerance=self.contact.tolerance).metres(foot)
         self.clear = max(CLEAR * foot.size, 2 * self.tolerance)

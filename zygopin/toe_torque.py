@@ -6,7 +6,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
-from zygopin import checks, names
+from zygopin import checks, kinds, names
 from zygopin.contacts import Contacts, Floats
 from zygopin.errors import ParameterError
 from zygopin.grasp import GraspReport
@@ -32,6 +32,8 @@ def torque_matrix(model: FootModel, controls: Floats, contacts: Contacts) -> Flo
     Raises:
         ParameterError: A contact that belongs to no phalanx of the foot.
     """
+    kinds.instance("model", model, FootModel)
+    kinds.instance("contacts", contacts, Contacts)
     foot, ranks = model.foot, np.asarray(contacts.phalanges)
     known = (ranks >= 0) & (ranks < foot.phalanx_count)
     allowed = f"an index from 0 to {foot.phalanx_count - 1}"
@@ -72,7 +74,9 @@ def joint_torques(
     Raises:
         ParameterError: A contact that belongs to no phalanx, or not one force for each.
     """
-    checks.shaped("forces", np.asarray(forces), contacts.points.shape)
+    kinds.instance("contacts", contacts, Contacts)
+    forces = checks.array("forces", forces)
+    checks.shaped("forces", forces, contacts.points.shape)
     matrix = torque_matrix(model, controls, contacts)
     return np.asarray(-np.einsum("pni,ni->p", matrix, forces))
 
@@ -98,6 +102,7 @@ def tendon_drive(
         ParameterError: A tension that is not positive, or a foot of bare bones, whose
             tendons have no moment arm.
     """
+    kinds.instance("report", report, GraspReport)
     foot = report.foot
     pull = _positive("tension", tension, "what one tendon pulls, such as 5", "newtons")
     if foot.thickness == 0:
@@ -125,10 +130,12 @@ def joint_drive(
     Raises:
         ParameterError: A torque that is not positive, or not one for each joint.
     """
+    kinds.instance("report", report, GraspReport)
     count = report.foot.phalanx_count
     values = np.atleast_1d(checks.array("torques", torques))
     remedy = "give what a joint turns with, such as 0.01"
-    checks.require("torques", values, values > 0, "a positive number of N·m", remedy)
+    good = (values > 0) & (values <= checks.LARGEST)
+    checks.require("torques", values, good, "a positive number of N·m", remedy)
     if values.shape != (1,):
         checks.shaped("torques", values, (count,))
     own = np.diag(np.broadcast_to(values, (count,)))
@@ -158,6 +165,6 @@ def _positive(name: str, value: float, example: str, unit: str) -> float:
         name,
         value,
         allowed=f"a positive number of {unit}",
-        where=lambda x: x > 0,
+        where=lambda x: 0 < x <= checks.LARGEST,
         remedy=f"give {example}",
     )

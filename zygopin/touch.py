@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.axis_chain import AxisChain, Floats, Indices
 from zygopin.branch import Branch
 from zygopin.foot import Foot
@@ -77,6 +77,13 @@ class TouchIntervals:
         """Whether both brackets are as narrow as wanted, shape (…, F)."""
         return np.asarray(self.width <= self.tolerance * _finger_lengths(self.foot))
 
+    def _radii(self, radius: ArrayLike) -> Floats:
+        """Checked radii that broadcast against the fingers' ends, shape (…, 1)."""
+        radii = checks.lengths("radius", radius)
+        batch = self.boxes.shape[:-1]
+        checks.common_batch("radius and intervals", radii.shape, batch)
+        return radii[..., None]
+
     def touchable(self, radius: ArrayLike) -> NDArray[np.bool_]:
         """Whether branches certainly can be touched without being entered.
 
@@ -85,8 +92,11 @@ class TouchIntervals:
 
         Returns:
             For each finger, shape (…, F); false also where it is not decided.
+
+        Raises:
+            ParameterError: A radius is no positive length, or the shapes differ.
         """
-        radii = checks.array("radius", radius)[..., None]
+        radii = self._radii(radius)
         return (radii >= self.least[..., 1]) & (radii <= self.most[..., 0])
 
     def out_of_touch(self, radius: ArrayLike) -> NDArray[np.bool_]:
@@ -97,8 +107,11 @@ class TouchIntervals:
 
         Returns:
             For each finger, shape (…, F); false also where it is not decided.
+
+        Raises:
+            ParameterError: A radius is no positive length, or the shapes differ.
         """
-        radii = checks.array("radius", radius)[..., None]
+        radii = self._radii(radius)
         return (radii < self.least[..., 0]) | (radii > self.most[..., 1])
 
 
@@ -124,8 +137,8 @@ def touch_intervals(
     Raises:
         ParameterError: An argument is out of range or of the wrong type.
     """
-    checks.instance("foot", foot, Foot)
-    checks.instance("branch", branch, Branch)
+    kinds.instance("foot", foot, Foot)
+    kinds.instance("branch", branch, Branch)
     within = checks.number(
         "tolerance",
         tolerance,

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.branch import Branch
 from zygopin.errors import ParameterError
 from zygopin.figures import (
@@ -24,6 +24,7 @@ from zygopin.figures import (
     save_figure,
     unit_of,
 )
+from zygopin.files import check_file
 from zygopin.foot import Foot
 from zygopin.looks import finger_paint
 from zygopin.touch import touch_intervals
@@ -94,8 +95,9 @@ def plot_touch_bands(
         ParameterError: A value is out of range, or the branch is a batch.
         FileError: The file cannot be written.
     """
-    checks.instance("foot", foot, Foot)
-    checks.instance("branch", branch, Branch)
+    check_file(path)
+    kinds.instance("foot", foot, Foot)
+    kinds.instance("branch", branch, Branch)
     if branch.batch_shape:
         remedy = "draw one axis at a time"
         raise ParameterError("branch's batch", branch.batch_shape, "()", remedy)

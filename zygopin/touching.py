@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from zygopin import checks
+from zygopin import checks, kinds
 from zygopin.axis_chain import AxisChain, Floats, Indices
 from zygopin.branch import Branch
 from zygopin.illinois import crossings
@@ -53,7 +53,7 @@ def touching_controls(intervals: TouchIntervals, radius: ArrayLike) -> TouchingC
     Raises:
         ParameterError: A radius is not a positive length, or the shapes differ.
     """
-    checks.instance("intervals", intervals, TouchIntervals)
+    kinds.instance("intervals", intervals, TouchIntervals)
     foot, radii = intervals.foot, checks.lengths("radius", radius)
     batch = intervals.boxes.shape[:-1]
     shape = checks.common_batch("radius and intervals", radii.shape, batch)

@@ -10,7 +10,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from zygopin import checks, names
+from zygopin import checks, kinds, names
 from zygopin.finger import Finger
 from zygopin.foot import Foot
 from zygopin.hausdorff import directed_distance, hausdorff_distance
@@ -166,9 +166,12 @@ def iter_validation(
         ParameterError: A number is out of range.
         DescriptionError: The URDF is malformed, or is not one of this foot.
     """
+    kinds.instance("foot", foot, Foot)
     levels = checks.integer("levels", levels, 2, MOST_CONFIGURATIONS)
     samples = checks.integer("samples", samples, 1, 10**7)
-    rng = np.random.default_rng(0) if rng is None else rng
+    if rng is None:
+        rng = np.random.default_rng(0)
+    kinds.instance("rng", rng, np.random.Generator)
     model = FootModel(foot, urdf)
     return _rows(model, levels, samples, rng)
 

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from zygopin import checks
-from zygopin.blocks import Part, entries, in_blocks
+from zygopin import checks, kinds
+from zygopin.blocks import Part, as_threads, entries, in_blocks
 from zygopin.bones import posed_bones
 from zygopin.branch import Branch
 from zygopin.clearance import branch_clearance
@@ -88,12 +88,16 @@ def grasp_verdicts(
         ParameterError: A control is outside [0, 1], shapes do not fit, the branch
             holds the foot's base, or that is no number of threads.
     """
+    kinds.instance("foot", foot, Foot)
+    kinds.instance("branch", branch, Branch)
+    criteria = kinds.optional("criteria", criteria, Criteria)
+    threads = as_threads(threads)
     values = read_controls(foot, controls)
     check_branch(foot, branch)
     shapes = values.shape[:-1], branch.batch_shape
     batch = checks.common_batch("controls and branch", *shapes)
     count = int(np.prod(batch, dtype=int))
-    cases = _Cases(foot, values, branch, batch, criteria or Criteria())
+    cases = _Cases(foot, values, branch, batch, criteria)
     touched, entered = _sifted(cases, count, threads)
     free = np.flatnonzero(~(touched | entered))
     if branch.length is not None:

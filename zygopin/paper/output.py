@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator
 from pathlib import Path
 
-from zygopin.files import write_text
+from zygopin.files import check_folder, write_text
 from zygopin.paper.document import paper_document
 from zygopin.paper.entry import Entry
 from zygopin.paper.page import page
@@ -50,6 +50,7 @@ def iter_paper_report(folder: Path | str) -> Iterator[tuple[str, Entry]]:
     Raises:
         FileError: A file cannot be written.
     """
+    check_folder(folder)
     done, pictures = [], {}
     for title, entry in iter_entries():
         for figure in entry.figures:
