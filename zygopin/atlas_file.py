@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import zipfile
+import zlib
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +27,11 @@ UNITS = {
 """The arrays of a file, and their units."""
 
 _LINES = ("heights", "radii", "axis", "offset")
-_NO_ARCHIVE = (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile)
+_NO_ARCHIVE = (
+    *(ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile, zlib.error),
+    *(NotImplementedError, RuntimeError),  # an encrypted one, or by other methods
+    MemoryError,  # what it says to hold
+)
 _REMEDY = "name a file that save_atlas has written"
 
 
@@ -83,7 +88,7 @@ def load_atlas(path: Path | str) -> Atlas:
         raise FileError(path, "is no atlas", _REMEDY) from error
     try:
         return _atlas(arrays)
-    except (ZygopinError, ValueError, KeyError, TypeError) as error:
+    except (ZygopinError, ValueError, KeyError, TypeError, RecursionError) as error:
         raise FileError(path, f"is no atlas: {error}", _REMEDY) from error
 
 

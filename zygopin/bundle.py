@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from zygopin.description import to_urdf
-from zygopin.files import write_bytes, write_text
+from zygopin.files import within, write_bytes, write_text
 from zygopin.foot import Foot
 from zygopin.mesh import to_glb
 from zygopin.mjcf import to_mjcf
@@ -47,7 +47,8 @@ def write_description(
         texts["foot_tendon.xml"] = to_mjcf(foot, tendon=True)
         texts["scene.xml"] = to_mjcf_scene(foot, "foot_tendon.xml")
     meshes = {"foot.glb": to_glb(foot)} if glb else {}
+    places = {name: within(folder, name) for name in (*texts, *meshes)}
     return (
-        *(write_text(Path(folder) / name, text) for name, text in texts.items()),
-        *(write_bytes(Path(folder) / name, mesh) for name, mesh in meshes.items()),
+        *(write_text(places[name], text) for name, text in texts.items()),
+        *(write_bytes(places[name], mesh) for name, mesh in meshes.items()),
     )

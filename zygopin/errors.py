@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from difflib import get_close_matches
 from pathlib import Path
+from reprlib import Repr
 from typing import Any
+
+SHOWN = 60
+"""Characters of a value that a message shows at most."""
 
 
 class ZygopinError(Exception):
@@ -63,7 +67,7 @@ class UnknownNameError(ZygopinError, LookupError):
         self.kind = kind
         self.name = name
         self.known = tuple(known)
-        close = get_close_matches(str(name), self.known, n=1)
+        close = get_close_matches(_text(name), self.known, n=1)
         hint = f"did you mean {close[0]!r}? " if close else ""
         listed = ", ".join(self.known)
         super().__init__(f"unknown {kind} {_shown(name)}: {hint}choose one of {listed}")
@@ -79,7 +83,8 @@ class FileError(ZygopinError, OSError):
     """
 
     def __init__(self, path: Path | str, problem: str, remedy: str) -> None:
-        super().__init__(f"{path}: {_one_line(problem)}: {remedy}")
+        shown = str(path) if str(path).isprintable() else repr(str(path))
+        super().__init__(f"{shown}: {_one_line(problem)}: {remedy}")
         self.path = Path(path)
         self.problem = problem
         self.remedy = remedy
@@ -136,5 +141,32 @@ def _one_line(text: str) -> str:
 
 def _shown(value: object) -> str:
     """A value as a message shows it: one line, not longer than a line."""
-    text = _one_line(repr(value) if isinstance(value, str) else str(value))
-    return text if len(text) <= 60 else f"{text[:57]}..."
+    text = _one_line(repr(value) if isinstance(value, str) else _text(value))
+    return text if len(text) <= SHOWN else f"{text[: SHOWN - 3]}..."
+
+
+def _text(value: object) -> str:
+    """A value as text, of which containers and integers may be left out in part."""
+    if isinstance(value, (list, tuple, dict, set, frozenset, int)):
+        return _Brief().repr(value)
+    return str(value)
+
+
+class _Brief(Repr):
+    """Values as text that stays short however much they hold.
+
+    One list may hold another many times over, and that again another: written in full,
+    a few lines of YAML would fill the memory.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.maxlevel = 3
+        self.maxlist = self.maxtuple = self.maxdict = SHOWN // 3
+        self.maxset = self.maxfrozenset = SHOWN // 3
+        self.maxstring = self.maxother = 4 * SHOWN
+
+    def repr_int(self, x: int, level: int) -> str:  # noqa: ARG002
+        """An integer; Python does not write those of more than 4300 digits."""
+        size = x.bit_length()
+        return repr(x) if size <= 4 * SHOWN else f"an integer of {size} bits"
