@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -274,7 +275,8 @@ def test_output_that_cannot_be_written_is_one_line_and_status_2():
 
 
 def test_a_reader_that_leaves_early_is_no_verdict():
-    command = f"{sys.executable} -m zygopin presets owl | true; echo ${{PIPESTATUS[0]}}"
+    python = shlex.quote(sys.executable)
+    command = f"{python} -m zygopin presets owl | true; echo ${{PIPESTATUS[0]}}"
     result = subprocess.run(
         ["bash", "-c", command], capture_output=True, text=True, check=True
     )

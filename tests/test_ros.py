@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import runpy
 import shlex
+import shutil
 import subprocess
 import sys
 import types
@@ -221,6 +222,12 @@ def test_a_file_of_one_s_own_takes_the_preset_s_place(launch, tmp_path):
     file.write_text(yaml.safe_dump(Foot.preset("anisodactyl").to_mapping()))
     urdf = urdf_of(launch(), foot=str(file))
     assert links(urdf) == links(to_urdf(Foot.preset("anisodactyl")))
+
+
+def test_the_package_may_lie_anywhere(launch, tmp_path):
+    package = shutil.copytree(PACKAGE_PATH, tmp_path / "a bird's café")
+    urdf = urdf_of(launch(package / "launch" / LAUNCH.name))
+    assert links(urdf) == links(to_urdf(Foot.preset("parrot")))
 
 
 def test_the_presets_and_the_template_s_arguments_are_those_that_exist(launch):

@@ -74,7 +74,7 @@ def load_atlas(path: Path | str) -> Atlas:
     arrays = read_archive(path, (*UNITS, "document"), "atlas")
     try:
         return _atlas(arrays)
-    except (ZygopinError, ValueError, KeyError, TypeError) as error:
+    except (ZygopinError, ValueError, KeyError, TypeError, RecursionError) as error:
         raise FileError(path, f"is no atlas: {error}", _REMEDY) from error
 
 

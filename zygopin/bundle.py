@@ -6,7 +6,7 @@ from pathlib import Path
 
 from zygopin import checks, kinds
 from zygopin.description import to_urdf
-from zygopin.files import check_folder, write_bytes, write_text
+from zygopin.files import check_folder, within, write_bytes, write_text
 from zygopin.foot import Foot
 from zygopin.mesh import to_glb
 from zygopin.mjcf import to_mjcf
@@ -40,7 +40,7 @@ def write_description(
     kinds.instance("foot", foot, Foot)
     checks.flag("mjcf", mjcf)
     checks.flag("glb", glb)
-    place = check_folder(folder)
+    check_folder(folder)
     texts = {
         "foot.urdf": to_urdf(foot),
         "foot_tendon.urdf": to_urdf(foot, tendon=True),
@@ -52,7 +52,8 @@ def write_description(
         texts["foot_tendon.xml"] = to_mjcf(foot, tendon=True)
         texts["scene.xml"] = to_mjcf_scene(foot, "foot_tendon.xml")
     meshes = {"foot.glb": to_glb(foot)} if glb else {}
+    places = {name: within(folder, name) for name in (*texts, *meshes)}
     return (
-        *(write_text(place / name, text) for name, text in texts.items()),
-        *(write_bytes(place / name, mesh) for name, mesh in meshes.items()),
+        *(write_text(places[name], text) for name, text in texts.items()),
+        *(write_bytes(places[name], mesh) for name, mesh in meshes.items()),
     )

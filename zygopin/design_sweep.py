@@ -117,12 +117,20 @@ class Sweep:
             FileError: The output cannot be written.
             WorkerError: The workers were lost.
         """
+        if self.output is None:
+            return self._done(runner, began)
+        with Parts.beside(self.output).shared():
+            return self._done(runner, began)
+
+    def _done(
+        self, runner: Runner, began: Callable[[int, int], Callable[[], None]]
+    ) -> SweepResult:
+        """The sweep, its parts being nobody else's to remove."""
         every = list(chunks(self.grid, self.levels))
         if self.output is not None:
             done = saved_dataset(self.output, question_digest(every))
             if done is not None:
                 began(len(every), len(every))
-                Parts.beside(self.output).remove()
                 return SweepResult(done, len(every), len(every))
         found = self._kept(every)
         kept = len(found)
@@ -140,7 +148,6 @@ class Sweep:
         dataset = to_dataset(self.grid, every, [found[each.digest] for each in every])
         if self.output is not None:
             save_dataset(dataset, self.output)
-            Parts.beside(self.output).remove()
         return SweepResult(dataset, len(every), kept)
 
     def _kept(self, every: list[Chunk]) -> dict[str, Arrays]:

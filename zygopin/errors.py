@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from difflib import get_close_matches
 from pathlib import Path
+from reprlib import Repr
 from typing import Any
 
-LINE, PATH, LISTED = 60, 300, 1000
-"""Characters of a value and of a path that a message shows, and entries of a list: what
-is longer is cut, or only counted."""
+LINE, PATH = 60, 300
+"""Characters of a value and of a path that a message shows: what is longer is cut."""
 
 
 class ZygopinError(Exception):
@@ -67,7 +67,7 @@ class UnknownNameError(ZygopinError, LookupError):
         self.kind = kind
         self.name = name
         self.known = tuple(known)
-        close = get_close_matches(str(name), self.known, n=1)
+        close = get_close_matches(_text(name), self.known, n=1)
         hint = f"did you mean {close[0]!r}? " if close else ""
         listed = ", ".join(self.known)
         super().__init__(f"unknown {kind} {_shown(name)}: {hint}choose one of {listed}")
@@ -140,16 +140,39 @@ def _one_line(text: str) -> str:
 
 def _shown(value: object) -> str:
     """A value as a message shows it: one line, not longer than a line."""
-    if isinstance(value, (list, tuple, dict, set)) and len(value) > LISTED:
-        return f"a {type(value).__name__} of {len(value)}"
-    try:
-        text = _one_line(repr(value) if isinstance(value, str) else str(value))
-    except ValueError:  # more digits than Python writes
-        text = f"a huge {type(value).__name__}"
+    text = _one_line(repr(value) if isinstance(value, str) else _text(value))
     return text if len(text) <= LINE else f"{text[: LINE - 3]}..."
+
+
+def _text(value: object) -> str:
+    """A value as text, of which containers and integers may be left out in part."""
+    if isinstance(value, (list, tuple, dict, set, frozenset, int)):
+        return _Brief().repr(value)
+    return str(value)
+
+
+class _Brief(Repr):
+    """Values as text that stays short however much they hold.
+
+    One list may hold another many times over, and that again another: written in full,
+    a few lines of YAML would fill the memory.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.maxlevel = 3
+        self.maxlist = self.maxtuple = self.maxdict = LINE // 3
+        self.maxset = self.maxfrozenset = LINE // 3
+        self.maxstring = self.maxother = 4 * LINE
+
+    def repr_int(self, x: int, level: int) -> str:  # noqa: ARG002
+        """An integer; Python does not write those of more than 4300 digits."""
+        size = x.bit_length()
+        return repr(x) if size <= 4 * LINE else f"an integer of {size} bits"
 
 
 def _shown_path(path: Path | str) -> str:
     """A path as a message shows it: whole, but for one that no system would take."""
-    text = _one_line(str(path)) or "''"
+    plain = str(path)
+    text = plain if plain.isprintable() and plain else repr(plain)
     return text if len(text) <= PATH else f"...{text[3 - PATH :]}"

@@ -46,7 +46,7 @@ def read_text(path: Path | str) -> str:
         What it holds.
 
     Raises:
-        FileError: It cannot be read, or is not UTF-8.
+        FileError: It cannot be read, is not UTF-8, or is longer than `LARGEST`.
     """
     place = as_path(path)
     try:
@@ -96,6 +96,34 @@ def write_bytes(path: Path | str, content: bytes) -> Path:
         FileError: The path is no regular file, or its folder cannot be written.
     """
     return write_stream(path, lambda file: file.write(content))
+
+
+def within(folder: Path | str, *names: str) -> Path:
+    """Where a file of a folder is written to: in that folder.
+
+    The folder may be a link; what is in it may be none that leads out of it, for its
+    files are written over without a question.
+
+    Args:
+        folder: The folder, which need not exist.
+        *names: What leads from there to the file.
+
+    Returns:
+        The path.
+
+    Raises:
+        FileError: It is not in the folder.
+    """
+    path = Path(folder, *names)
+    try:
+        real = Path(os.path.realpath(path))
+        inside = real.is_relative_to(os.path.realpath(folder))
+    except ValueError as error:
+        raise FileError(path, f"cannot be written: {error}", "rename it") from error
+    if not inside:
+        problem = f"cannot be written: it leads to {real}, out of its folder"
+        raise FileError(path, problem, "remove the link, or name another folder")
+    return path
 
 
 def write_stream(path: Path | str, write: Callable[[BinaryIO], object]) -> Path:

@@ -9,10 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from zygopin import checks
+from zygopin.blocks import in_blocks
 from zygopin.errors import ParameterError
-
-ALL_CORES = -1
-"""Workers of a search: as many as there are cores; the answer does not depend on it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,8 +100,15 @@ def nearest_points(
     # Equal points make one leaf of any size, which a search walks through.
     kept = _first_of_each(targets)
     tree = cKDTree(targets[kept], balanced_tree=False)
-    distances, nearest = tree.query(sources, workers=ALL_CORES)
-    return np.asarray(distances), kept[np.asarray(nearest)]
+    distances, nearest = np.empty(len(sources)), np.empty(len(sources), np.intp)
+
+    # Not by the tree's own threads: where one is interrupted, others go on in memory
+    # that has been given back.
+    def search(part: slice) -> None:
+        distances[part], nearest[part] = tree.query(sources[part])
+
+    in_blocks(search, len(sources))
+    return distances, kept[nearest]
 
 
 def as_cloud(name: str, points: ArrayLike) -> NDArray[np.float64]:

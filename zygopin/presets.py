@@ -12,6 +12,7 @@ from zygopin import kinds
 from zygopin.errors import FileError
 from zygopin.files import read_text, write_text
 from zygopin.paths import PRESETS_PATH
+from zygopin.plain_yaml import parsed
 
 
 def preset_names() -> tuple[str, ...]:
@@ -53,8 +54,8 @@ def read_parameters(path: Path | str) -> dict[str, Any]:
         FileError: The file cannot be read, is not YAML, or is not one mapping.
     """
     try:
-        content = yaml.safe_load(read_text(path))
-    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        content = parsed(read_text(path))
+    except ValueError as error:
         raise FileError(path, f"not YAML: {error}", "mend the syntax") from error
     if not isinstance(content, Mapping):
         remedy = (

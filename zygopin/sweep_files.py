@@ -8,6 +8,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from zygopin.errors import FileError, MissingExtraError
+from zygopin.exchange import put
 from zygopin.files import as_path, check_folder
 from zygopin.sweep_dataset import Dataset, xarray
 
@@ -59,18 +60,13 @@ def save_dataset(dataset: Dataset, path: Path | str) -> Path:
         FileError: It cannot be written.
         MissingExtraError: What writes such a file is not installed.
     """
-    target = check_output(path)
-    part = target.with_name(f".{os.urandom(8).hex()}{target.suffix}")
+    suffix = check_output(path).suffix
+    target = Path(os.path.realpath(path))
+    part = target.with_name(f".{os.urandom(8).hex()}{suffix}")
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
         _write(dataset, part)
-        if target.is_dir():  # a folder cannot be renamed onto another
-            old = part.with_suffix(".old")
-            target.rename(old)
-            part.rename(target)
-            shutil.rmtree(old)
-        else:
-            part.replace(target)
+        put(part, target)
     except OSError as error:
         remedy = "name a file in a folder that can be written"
         problem = f"cannot be written: {error.strerror or error}"

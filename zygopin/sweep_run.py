@@ -11,12 +11,13 @@ from typing import Any
 from zygopin import checks
 from zygopin.errors import MissingExtraError, UnknownNameError, WorkerError
 from zygopin.sweep_cell import Arrays, Chunk, plan_chunk
-from zygopin.worker_process import MOST_WORKERS, leave_with_parent
+from zygopin.worker_process import MOST_WORKERS, worker_pool
 
 try:
     from dask.base import compute
     from dask.callbacks import Callback
     from dask.delayed import delayed
+    from dask.system import CPU_COUNT
 except ImportError as error:
     raise MissingExtraError("dask", "sweep") from error
 
@@ -78,19 +79,20 @@ class Runner:
             self._run_remotely(tasks, by_key, keep)
             return
         with _Finished(by_key, keep):
-            try:
-                compute(*tasks, scheduler=self.scheduler, **self._local_options)
-            except BrokenExecutor as error:
-                raise WorkerError("a worker process ended early", AGAIN) from error
+            self._run_here(tasks)
 
-    @property
-    def _local_options(self) -> dict[str, Any]:
-        """What Dask's local schedulers are told."""
-        # One chunk at a time: several would be handed over, and lost, together.
-        options: dict[str, Any] = {"num_workers": self.workers, "chunksize": 1}
-        if self.scheduler == "processes":
-            options["initializer"] = leave_with_parent
-        return options
+    def _run_here(self, tasks: list[Any]) -> None:
+        """The same on this machine."""
+        workers = self.workers or CPU_COUNT
+        if self.scheduler != "processes":
+            compute(*tasks, scheduler=self.scheduler, num_workers=workers)
+            return
+        try:
+            with worker_pool(workers) as pool:
+                # One chunk at a time: several would be handed over, and lost, together.
+                compute(*tasks, scheduler="processes", pool=pool, chunksize=1)
+        except BrokenExecutor as error:
+            raise WorkerError("a worker process ended early", AGAIN) from error
 
     def _run_remotely(
         self, tasks: list[Any], chunks: Mapping[str, Chunk], keep: Keep

@@ -11,7 +11,7 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import TemporaryDirectory, gettempdir
 from xml.parsers.expat import ExpatError
 
 import xacro
@@ -20,6 +20,9 @@ import yaml
 from zygopin.errors import DescriptionError
 from zygopin.foot import Foot
 from zygopin.paths import XACRO_PATH
+
+FILE = "foot.yaml"
+"""Name of the file in which xacro is given a foot."""
 
 _XACRO = threading.Lock()
 """xacro keeps what it works on in globals: one expansion at a time."""
@@ -36,14 +39,13 @@ def expand(foot: Foot, *, tendon: bool = False) -> str:
         The text, indented, without xacro's banner.
 
     Raises:
-        DescriptionError: A template is missing, or is none.
+        DescriptionError: A template is missing, or is none; or no temporary file can
+            be written.
     """
     arguments = {"tendon": "true" if tendon else "false"}
     try:
-        with TemporaryDirectory(prefix="zygopin-") as folder, _expansion():
-            file = Path(folder) / "foot.yaml"
-            file.write_text(yaml.safe_dump(foot.to_mapping()), encoding="utf-8")
-            arguments["foot"] = str(file)
+        with _folder_with(foot) as folder, _expansion():
+            arguments["foot"] = str(Path(folder) / FILE)
             document = xacro.process_file(str(XACRO_PATH), mappings=arguments)
     except (xacro.XacroException, ExpatError, OSError, RuntimeError) as error:
         remedy = "restore the shipped template"
@@ -52,6 +54,22 @@ def expand(foot: Foot, *, tendon: bool = False) -> str:
         if node is not document.documentElement:
             document.removeChild(node)  # xacro's banner, and the template's own note
     return str(document.toprettyxml(indent="  "))
+
+
+def _folder_with(foot: Foot) -> TemporaryDirectory[str]:
+    """A temporary folder that holds a foot's file, and that xacro can be told of."""
+    remedy = "set TMPDIR to another folder"
+    try:
+        if "$" in (place := gettempdir()):
+            problem = f"the folder {place} has a $ in its name, which xacro evaluates"
+            raise DescriptionError(problem, remedy)
+        folder = TemporaryDirectory(prefix="zygopin-")
+        text = yaml.safe_dump(foot.to_mapping())
+        (Path(folder.name) / FILE).write_text(text, encoding="utf-8")
+    except OSError as error:
+        problem = f"no temporary file can be written: {error.strerror or error}"
+        raise DescriptionError(problem, remedy) from error
+    return folder
 
 
 @contextmanager

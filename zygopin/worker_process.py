@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
 from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from contextlib import contextmanager
+from multiprocessing.context import SpawnContext, SpawnProcess
 from threading import Thread
 from typing import Any
 
@@ -32,15 +34,60 @@ def mapping(workers: int) -> Iterator[Callable[..., Any]]:
         yield map
         return
     try:
-        with ProcessPoolExecutor(
-            workers,
-            multiprocessing.get_context("spawn"),
-            initializer=leave_with_parent,
-        ) as pool:
+        with worker_pool(workers) as pool:
             yield pool.map
     except BrokenExecutor as error:
         remedy = "take fewer workers; in a script, guard it by __name__"
         raise WorkerError("a worker process ended early", remedy) from error
+
+
+@contextmanager
+def worker_pool(workers: int) -> Iterator[ProcessPoolExecutor]:
+    """Processes that work for this one, and end at once where the work is broken off.
+
+    Args:
+        workers: How many.
+
+    Yields:
+        What takes the work.
+    """
+    made = _Workers()
+    with ProcessPoolExecutor(workers, made, initializer=leave_with_parent) as pool:
+        try:
+            yield pool
+        except BaseException:
+            for worker in made.started:
+                worker.terminate()  # the pool would wait for what it has begun
+            raise
+
+
+class _Worker(SpawnProcess):
+    """A process that a terminal's interruption does not reach, only its parent."""
+
+    def start(self) -> None:
+        """Start it; what this thread has blocked meanwhile, it has blocked for ever."""
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        try:
+            super().start()
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+class _Workers(SpawnContext):
+    """Makes such processes.
+
+    Attributes:
+        started: Those that it has made, all of them started.
+    """
+
+    def __init__(self) -> None:
+        self.started: list[_Worker] = []
+
+    def Process(self, *args: Any, **kwargs: Any) -> _Worker:  # type: ignore[override] # noqa: ANN401
+        """Another process, as a pool asks for it."""
+        worker = _Worker(*args, **kwargs)
+        self.started.append(worker)
+        return worker
 
 
 def leave_with_parent() -> None:

@@ -4,6 +4,7 @@ ros2 launch zygopin_description display.launch.py preset:=owl tendon:=true
 """
 
 from pathlib import Path
+from shlex import quote
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
@@ -84,7 +85,7 @@ def _argument(
 
 def _urdf() -> Command:
     """The command that prints the URDF; quoted, for paths with spaces."""
-    words = [f"xacro '{SHARE / 'foot.urdf.xacro'}'"]
+    words = [f"xacro {quote(str(SHARE / 'foot.urdf.xacro'))}"]
     for name in ("foot", *NUMBERS, "tendon"):
         words += [f" '{name}:=", LaunchConfiguration(name), "'"]
     return Command(words)

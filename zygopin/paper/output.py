@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator
 from pathlib import Path
 
-from zygopin.files import check_folder, write_text
+from zygopin.files import check_folder, within, write_text
 from zygopin.paper.document import paper_document
 from zygopin.paper.entry import Entry
 from zygopin.paper.page import page
@@ -54,15 +54,15 @@ def iter_paper_report(folder: Path | str) -> Iterator[tuple[str, Entry]]:
     done, pictures = [], {}
     for title, entry in iter_entries():
         for figure in entry.figures:
-            path = Path(folder) / "figures" / figure.name
+            path = within(folder, "figures", figure.name)
             figure.write(path)
             pictures[figure.name] = path.read_bytes()
         for scene in entry.scenes:
-            scene.write(Path(folder) / "scenes" / scene.name)
+            scene.write(within(folder, "scenes", scene.name))
         done.append((title, entry))
         yield title, entry
     report = gathered(done)
     document = paper_document(report)
     text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
-    write_text(Path(folder) / NUMBERS, text + "\n")
-    write_text(Path(folder) / PAGE, page(report, pictures))
+    write_text(within(folder, NUMBERS), text + "\n")
+    write_text(within(folder, PAGE), page(report, pictures))
