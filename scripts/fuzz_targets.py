@@ -126,7 +126,7 @@ def seeds(target: str) -> list[bytes]:
         "controls": _controls_seeds,
         "options": _options_seeds,
         "atlas": _atlas_seeds,
-        "archive": lambda: [_zipped(_atlas_members())],
+        "archive": _archive_seeds,
         "urdf": lambda: [_small_urdf()],
     }[target]()
 
@@ -143,7 +143,8 @@ def _controls_seeds() -> list[bytes]:
     document = {"foot": _parrot().to_mapping(), "controls": toes}
     numbers = ",".join(["0.5"] * 14)
     texts = (numbers, f"[{numbers}]", json.dumps(toes), json.dumps(document))
-    return [lead + text.encode() for text in texts for lead in (b"\0", b"\1")]
+    in_files = [b"\1" + text.encode() for text in texts[1:]]
+    return [*(b"\0" + text.encode() for text in texts), *in_files]
 
 
 def _options_seeds() -> list[bytes]:
@@ -172,6 +173,13 @@ def _atlas_seeds() -> list[bytes]:
         for place, name in enumerate(members)
     ]
     return [b"\0" + _zipped(_atlas_members()), *own]
+
+
+def _archive_seeds() -> list[bytes]:
+    """A small array in an archive."""
+    content = io.BytesIO()
+    np.save(content, np.zeros((2, 2)))
+    return [_zipped({"wrap.npy": content.getvalue()})]
 
 
 @cache

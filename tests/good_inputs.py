@@ -126,9 +126,10 @@ def tendon_foot():
 
 
 def locked_foot():
-    foot = tendon_foot()
-    foot.run(0.02)
-    return foot
+    down = zg.Motion.through([0, 1, 9], [[0, 0, 0.1], [0, 0, 0.01], [0, 0, 0.01]])
+    made = zg.TendonFoot(foot(), ball(), zg.Flight(down))
+    made.run(2.0)
+    return made
 
 
 @cache

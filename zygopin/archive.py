@@ -19,7 +19,7 @@ from zygopin.files import as_path, write_stream
 UNIX = 3
 """The system that archives name as their maker's: their bytes are the same on all."""
 
-_DAMAGE = (
+DAMAGE = (
     *(ArithmeticError, AttributeError, EOFError, LookupError, MemoryError),
     *(NotImplementedError, RuntimeError, SyntaxError, TypeError, ValueError),
     *(BadZipFile, zlib.error, struct.error, tokenize.TokenError),
@@ -53,7 +53,7 @@ def read_archive(
     except OSError as error:
         problem = f"cannot be read: {error.strerror or error}"
         raise FileError(path, problem, remedy) from error
-    except _DAMAGE as error:
+    except DAMAGE as error:
         raise FileError(path, f"is no {what}", remedy) from error
 
 

@@ -13,6 +13,7 @@ import fcl
 import numpy as np
 from numpy.typing import NDArray
 
+from zygopin import checks
 from zygopin.branch import Branch
 from zygopin.clearance import Clearance, Floats, Nearest, dot, norm
 from zygopin.fcl_solids import (
@@ -145,6 +146,8 @@ class _Toes:
 
     @classmethod
     def of(cls, bones: Floats, radii: Floats) -> _Toes:
+        remedy = "give bones of a foot"
+        checks.require("bones", bones, np.isfinite(bones), "finite", remedy)
         unit = _unit(bones)
         bones, skin = bones / unit, radii / unit
         flat = bones.reshape(-1, 2, 3)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import fcl
 import numpy as np
 
+from zygopin import checks
 from zygopin.clearance import Floats, norm
 from zygopin.obstacle import Capsule, ConvexMesh, Solid, Sphere
 
@@ -22,9 +23,18 @@ def capsules(bones: Floats, radii: Floats) -> list[fcl.CollisionObject]:
 
     Returns:
         One solid for each.
+
+    Raises:
+        ParameterError: A segment is not finite, or has no length, or a radius is not
+            at least 0: FCL would answer nonsense, or end the process.
     """
     lines = bones[:, 1] - bones[:, 0]
     lengths = norm(lines)
+    remedy = "give bones of a foot, and its radii"
+    sized = (lengths > 0) & np.isfinite(lengths)
+    checks.require("length of bones", lengths, sized, "positive and finite", remedy)
+    thick = (radii >= 0) & np.isfinite(radii)
+    checks.require("radii", radii, thick, "at least 0 and finite", remedy)
     frames = quaternions(lines / lengths[:, None])
     return [*map(placed, map(fcl.Capsule, radii, lengths), frames, bones.mean(1))]
 

@@ -155,7 +155,11 @@ def as_azimuths(foot: Foot, azimuths: ArrayLike | None) -> NDArray[np.float64]:
     kinds.instance("foot", foot, Foot)
     if azimuths is None:
         azimuths = [finger.azimuth for finger in foot.fingers]
-    return checks.array("azimuths", azimuths, last=len(foot.fingers))
+    values = checks.array("azimuths", azimuths, last=len(foot.fingers))
+    near = np.abs(values) <= checks.MOST_TURNED
+    allowed = f"within {checks.MOST_TURNED:g}"
+    checks.require("azimuths", values, near, allowed, "give radians")
+    return values
 
 
 def _joined(foot: Foot, controls: Mapping[str, Sequence[float]]) -> ArrayLike:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -106,7 +106,7 @@ class ConvexMesh:
 
     vertices: NDArray[np.float64]
     triangles: NDArray[np.intp]
-    planes: NDArray[np.float64]
+    planes: NDArray[np.float64] = field(init=False)
 
     def __init__(self, vertices: ArrayLike, triangles: ArrayLike | None = None) -> None:
         points = _places("mesh.vertices", vertices, (None, 3))

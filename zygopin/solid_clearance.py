@@ -77,20 +77,29 @@ def obstacle_clearance(
     solid = as_obstacle(obstacle)
     lines, skins = _checked(bones, radii)
     if isinstance(solid, Branch):
-        return _branch(lines, skins, solid, engine)
+        return _kept(_branch(lines, skins, solid, engine))
     flat = lines.reshape(-1, 2, 3)
     route = _exact(solid) if engine != "fcl" else _fcl(solid)
     found = route(flat)
     core = flat[:, 0] + found.t[:, None] * (flat[:, 1] - flat[:, 0])
     point = core - found.gap[:, None] * found.normal
     shape = lines.shape[:-2]
-    return Clearance(
-        found.gap.reshape(shape) - skins,
-        _on_line(flat, found, solid, route).reshape(shape),
-        point.reshape(*shape, 3),
-        found.normal.reshape(*shape, 3),
-        np.ones(shape, dtype=bool),
+    return _kept(
+        Clearance(
+            found.gap.reshape(shape) - skins,
+            _on_line(flat, found, solid, route).reshape(shape),
+            point.reshape(*shape, 3),
+            found.normal.reshape(*shape, 3),
+            np.ones(shape, dtype=bool),
+        )
     )
+
+
+def _kept(found: Clearance) -> Clearance:
+    """The record, its arrays made read-only."""
+    for values in vars(found).values():
+        checks.read_only(values)
+    return found
 
 
 def _checked(bones: ArrayLike, radii: ArrayLike) -> tuple[Floats, Floats]:

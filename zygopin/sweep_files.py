@@ -7,6 +7,7 @@ import shutil
 from importlib.util import find_spec
 from pathlib import Path
 
+from zygopin.archive import DAMAGE
 from zygopin.errors import FileError, MissingExtraError
 from zygopin.exchange import put
 from zygopin.files import as_path, check_folder
@@ -114,7 +115,7 @@ def load_dataset(path: Path | str) -> Dataset:
         options = {"consolidated": True} if engine == "zarr" else {}
         with xarray.open_dataset(target, engine=engine, **options) as dataset:  # type: ignore[arg-type]
             loaded: Dataset = dataset.load()
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (OSError, *DAMAGE) as error:
         remedy = "name a file that `sweep` wrote"
         raise FileError(path, f"is no dataset: {error}", remedy) from error
     return loaded
