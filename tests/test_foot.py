@@ -12,6 +12,7 @@ import yaml
 from hypothesis import given
 from strategies import feet, reals
 
+from zygopin.bones import posed_bones
 from zygopin.errors import FileError, ParameterError, UnknownNameError
 from zygopin.foot import GOLDEN_MEAN, Finger, Foot, zygodactyl_fingers
 from zygopin.presets import preset_names
@@ -187,6 +188,18 @@ def test_a_bad_parameter_is_one_line(field, value, message):
     assert field in str(caught.value) or field == "fingers"
     with pytest.raises(ParameterError, match=message):
         Foot().replace(**{field: value})
+
+
+def test_a_phalanx_that_is_lost_in_rounding_is_refused_and_the_remedy_works():
+    def foot(rho):
+        fingers = (Finger("a", 12, 0.0), Finger("b", 12, math.pi))
+        return Foot(rho=rho, thickness=0.1, fingers=fingers)
+
+    with pytest.raises(ParameterError, match="length of phalanx 12") as refused:
+        foot(100)
+    remedy = float(str(refused.value).rpartition(" at most ")[2])
+    bones = posed_bones(foot(remedy), np.full((50, 24), 0.7))
+    assert (bones[..., 0, :] != bones[..., 1, :]).any(axis=-1).all()
 
 
 @pytest.mark.parametrize("field", ["rho", "omega", "splay", "scale", "thickness"])

@@ -28,6 +28,10 @@ MAX_FINGERS = 12
 SIDEWAYS = 1e-9
 """Cosine of an azimuth below which a finger points neither forward nor back."""
 
+SHORTEST = 1e-12
+"""Least length of a phalanx over the foot's size: the ends of one that is shorter are
+rounded to the same place, or nearly so, and it has no direction."""
+
 _METADATA = ("description", "sources")
 
 
@@ -71,6 +75,7 @@ class Foot:
         fingers = _listed(self.fingers) or zygodactyl_fingers(self.splay)
         object.__setattr__(self, "fingers", _checked_fingers(fingers))
         _check_thickness(self.thickness, self.scale)
+        _check_shortest(self)
 
     @classmethod
     def preset(cls, name: str) -> Foot:
@@ -266,6 +271,18 @@ def _check_thickness(thickness: float, scale: float) -> None:
             f"below the scale {scale:g} m",
             "give a skin's radius smaller than the phalanges are long",
         )
+
+
+def _check_shortest(foot: Foot) -> None:
+    """A phalanx that is lost in the rounding of its finger is none."""
+    share = float(foot.lengths.min()) / foot.size
+    if share < SHORTEST:
+        most = max(finger.phalanges for finger in foot.fingers)
+        name = f"length of phalanx {most} over the foot's size"
+        # The longest finger is hardly longer than its first phalanx, where ρ is large.
+        largest = 0.9 * SHORTEST ** (-1 / (most - 1))
+        remedy = f"take fewer phalanges, or a rho of at most {largest:.3g}"
+        raise ParameterError(name, share, f"at least {SHORTEST:g}", remedy)
 
 
 def _listed(fingers: object) -> tuple[Any, ...]:

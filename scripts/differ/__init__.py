@@ -1,0 +1,1 @@
+"""What `scripts/differential` compares: independent routes on random input."""

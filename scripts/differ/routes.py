@@ -1,0 +1,17 @@
+"""All routes, by their names."""
+
+from __future__ import annotations
+
+from differ import bones, clearances, descriptions, discrete, planning, reaching
+
+ROUTES = (
+    *bones.ROUTES,
+    *clearances.ROUTES,
+    *reaching.ROUTES,
+    *discrete.ROUTES,
+    *planning.ROUTES,
+    *descriptions.ROUTES,
+)
+"""Every route, in the order of the table."""
+
+BY_NAME = {route.name: route for route in ROUTES}
