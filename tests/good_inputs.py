@@ -126,7 +126,7 @@ def tendon_foot():
 
 
 def locked_foot():
-    down = zg.Motion.through([0, 1, 9], [[0, 0, 0.1], [0, 0, 0.01], [0, 0, 0.01]])
+    down = zg.Motion.through([0, 1, 9], [[0, 0, 0.1], [0, 0, 0.007], [0, 0, 0.007]])
     made = zg.TendonFoot(foot(), ball(), zg.Flight(down))
     made.run(2.0)
     return made

@@ -11,7 +11,11 @@ import pytest
 from zygopin import checks, kinds
 from zygopin.errors import ParameterError
 
-NOT_NUMBERS = [None, True, "1", [1.0], {}, 1j, math.nan, math.inf, 10**400]
+NOT_NUMBERS = [
+    *(None, True, np.True_, "1", b"1", bytearray(b"1"), memoryview(b"1")),
+    *([1.0], {}, 1j, np.complex128(1), math.nan, math.inf, 10**400),
+    *(np.array([1.0]), np.timedelta64(1, "s")),
+]
 
 
 @pytest.mark.parametrize("value", [2, 2.0, np.float32(2), np.int64(2), Fraction(2)])

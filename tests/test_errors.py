@@ -73,6 +73,24 @@ def test_a_long_value_is_cut_and_stays_on_one_line():
     assert error.value == "x\n" * 500
 
 
+@pytest.mark.parametrize(
+    ("value", "shown"),
+    [(10**5000, "a huge int"), ([0.0] * 2000, "a list of 2000")],
+    ids=["digits", "list"],
+)
+def test_a_value_that_is_too_long_to_write_is_told_by_its_kind(value, shown):
+    message = str(ParameterError("rho", value, "above 1", "give one"))
+    assert message == f"rho = {shown} is not above 1: give one"
+
+
+def test_a_path_is_told_on_one_line_and_only_as_far_as_it_helps():
+    assert str(FileError("a\nb", "is none", "mend it")) == "a b: is none: mend it"
+    message = str(FileError("x" * 1000 + ".yaml", "is none", "mend it"))
+    assert message.startswith("...xx")
+    assert "x.yaml: is none" in message
+    assert len(message) < 330
+
+
 @pytest.mark.parametrize("error", EXAMPLES, ids=lambda e: type(e).__name__)
 def test_errors_cross_process_borders_whole(error):
     copy = pickle.loads(pickle.dumps(error))  # noqa: S301

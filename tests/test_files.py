@@ -8,7 +8,14 @@ from pathlib import Path
 import pytest
 
 from zygopin.errors import FileError
-from zygopin.files import read_text, write_bytes, write_stream, write_text
+from zygopin.files import (
+    check_file,
+    check_folder,
+    read_text,
+    write_bytes,
+    write_stream,
+    write_text,
+)
 
 
 def test_it_writes_the_text_and_creates_folders(tmp_path):
@@ -95,6 +102,21 @@ def test_a_writer_that_breaks_off_leaves_the_old_file(tmp_path, error):
 def test_bytes_for_a_folder_are_refused(tmp_path):
     with pytest.raises(FileError, match="not a regular file"):
         write_bytes(tmp_path, b"")
+
+
+def test_what_has_no_end_is_not_read_to_it():
+    with pytest.raises(FileError, match="/dev/zero: has more than 67108864 bytes"):
+        read_text("/dev/zero")
+
+
+@pytest.mark.parametrize("check", [check_file, check_folder])
+def test_a_place_is_checked_before_the_work_and_nothing_is_made(check, tmp_path):
+    (tmp_path / "file").write_text("kept")
+    assert check(tmp_path / "a" / "b") == tmp_path / "a" / "b"
+    for path in ("", tmp_path / "file" / "b", "/dev/null/b"):
+        with pytest.raises(FileError):
+            check(path)
+    assert [*tmp_path.iterdir()] == [tmp_path / "file"]
 
 
 def test_it_reads_text_or_says_why_not(tmp_path):
