@@ -23,6 +23,7 @@ from differ import (
     discrete,
     planning,
     reaching,
+    resting,
     running,
 )
 from differ.comparison import at_most, close, same
@@ -165,6 +166,11 @@ FAULTS = {
         changed(least=lambda found: found.least + 1e-9 * found.foot.size),
     ),
     "stable-branches": (discrete, "stable_branches", says_no_branch),
+    "resting-branches": (
+        resting,
+        "resting_radii",
+        changed(radius=lambda found: found.radius * (1 + 1e-9)),
+    ),
     "planner": (planning, "plan_perch", says_none),
     "named-poses": (descriptions, "to_srdf", less_closed),
 }

@@ -28,6 +28,9 @@ from zygopin.grasp import THINNEST
 from zygopin.placement import Placement
 from zygopin.tangent_lines import Integers
 
+TINY = 1e-300
+"""Keeps a division by what may vanish finite."""
+
 ULPS = 256
 """Rounding of a distance to an axis, in units of the last place of the foot's size and
 of the axis' distance: the search's own bounds are widened by 64 of each finger's."""
@@ -80,7 +83,7 @@ def _distances(foot: Foot, controls: Floats, axis: Branch) -> Floats:
     bones = forward_kinematics(foot, controls) - axis.centre
     flat = bones - dot(bones, axis.axis)[..., None] * axis.axis
     start, line = flat[..., 0, :], flat[..., 1, :] - flat[..., 0, :]
-    square = np.maximum(dot(line, line), 1e-300)
+    square = np.maximum(dot(line, line), TINY)
     t = np.clip(-dot(start, line) / square, 0, 1)[..., None]
     inner = norm(start + t * line)
     # A bone along the axis has its ends alone, and rounding may prefer them elsewhere.
@@ -138,14 +141,21 @@ def against_systems(drawn: Draw) -> Sequence[Comparison]:
     foot, rng = drawn.foot, drawn.rng
     pair = foot.opposable_pairs[int(rng.integers(len(foot.opposable_pairs)))]
     levels = np.linspace(0, 1, int(rng.integers(2, LEVELS + 1)))
-    place = Placement(_slanted(rng), *(foot.size * rng.normal(size=2) * [0.2, 0.2]))
+    place = Placement(slanted(rng), *(foot.size * rng.normal(size=2) * [0.2, 0.2]))
     drawn.beyond.update(pair=pair, levels=levels, placement=place)
     found = stable_branches(foot, (pair[0] + 1, pair[1] + 1), levels, placement=place)
-    return (*_by_fcl(found, rng), *_missing(found, levels, rng))
+    return (*by_fcl(found, rng), *_missing(found, levels, rng))
 
 
-def _slanted(rng: np.random.Generator) -> Floats:
-    """A direction that is not vertical; across the foot, every fourth time."""
+def slanted(rng: np.random.Generator) -> Floats:
+    """A direction that is not vertical; across the foot, every fourth time.
+
+    Args:
+        rng: Where it comes from.
+
+    Returns:
+        A vector of any length, shape (3,).
+    """
     if rng.random() < 0.25:
         return np.array([0.0, 1.0, 0.0])
     axis = rng.normal(size=3)
@@ -153,8 +163,16 @@ def _slanted(rng: np.random.Generator) -> Floats:
     return axis
 
 
-def _by_fcl(found: BranchSolutions, rng: np.random.Generator) -> Sequence[Comparison]:
-    """Contacts and verdicts of some solutions by FCL."""
+def by_fcl(found: BranchSolutions, rng: np.random.Generator) -> Sequence[Comparison]:
+    """Contacts and verdicts of some solutions by FCL.
+
+    Args:
+        found: The solutions.
+        rng: Where it comes from which of them.
+
+    Returns:
+        The comparisons; none without a solution.
+    """
     if not len(found):
         return ()
     some = rng.integers(len(found), size=min(THROUGH, len(found)))
@@ -211,7 +229,7 @@ def _solved(
     rank: Integers,
     rng: np.random.Generator,
 ) -> tuple[Floats, Floats, Floats]:
-    """Heights, radii, and determinants (0: a contact off a bone), shape (n,)."""
+    """Heights, radii, how well determined (0: a contact off a bone), shape (n,)."""
     rows = np.arange(len(controls))[:, None]
     starts = np.array([part.start for part in foot.finger_slices.values()])
     chosen = starts + rank - 1
@@ -220,7 +238,7 @@ def _solved(
     axis = np.asarray(place.axis)
     normal = np.cross(axis, line)
     size = norm(normal)[..., None]
-    normal = normal / np.maximum(size, 1e-300) * rng.choice([-1, 1], (*rank.shape, 1))
+    normal = normal / np.maximum(size, TINY) * rng.choice([-1, 1], (*rank.shape, 1))
     # n_z·h − r = n·x + skin, for a branch on the normal's side.
     right = dot(normal, bones[:, :, 0]) + foot.radii[chosen]
     slope = normal[..., 2]
@@ -234,9 +252,12 @@ def _solved(
     radius = slope[:, 0] * height - right[:, 0]
     offset = np.stack([0 * height, 0 * height, height], 1)[:, None] - bones[:, :, 0]
     flat = line - dot(line, axis)[..., None] * axis
-    t = dot(offset, flat) / np.maximum(dot(flat, flat), 1e-300)
+    t = dot(offset, flat) / np.maximum(dot(flat, flat), TINY)
     inside = (np.abs(t - 0.5) < 0.5 - INSIDE).all(axis=1)
-    return height, radius, np.where(good & inside, np.abs(determinant), 0.0)
+    # A short bone has a rounded direction.
+    steady = np.minimum(size[..., 0] / foot.size, 1.0).min(axis=1)
+    regular = np.abs(determinant) * steady
+    return height, radius, np.where(good & inside, regular, 0.0)
 
 
 def _counts(

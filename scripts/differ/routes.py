@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
-from differ import bones, clearances, descriptions, discrete, planning, reaching
+from differ import (
+    bones,
+    clearances,
+    descriptions,
+    discrete,
+    planning,
+    reaching,
+    resting,
+)
 
 ROUTES = (
     *bones.ROUTES,
     *clearances.ROUTES,
     *reaching.ROUTES,
     *discrete.ROUTES,
+    *resting.ROUTES,
     *planning.ROUTES,
     *descriptions.ROUTES,
 )
