@@ -20,11 +20,12 @@ from differ import (
     bones,
     clearances,
     descriptions,
-    discrete,
     planning,
     reaching,
     resting,
     running,
+    tangencies,
+    touches,
 )
 from differ.comparison import at_most, close, same
 from differ.corners import BRANCH_CORNERS, CORNER_NAMES, POSE_CORNERS
@@ -161,11 +162,11 @@ FAULTS = {
         changed(residual=lambda found: found.residual + 1e-9),
     ),
     "touch-intervals": (
-        discrete,
+        touches,
         "touch_intervals",
         changed(least=lambda found: found.least + 1e-9 * found.foot.size),
     ),
-    "stable-branches": (discrete, "stable_branches", says_no_branch),
+    "stable-branches": (tangencies, "stable_branches", says_no_branch),
     "resting-branches": (
         resting,
         "resting_radii",

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from differ.clearances import TINY
 from differ.comparison import Comparison, at_most
-from differ.discrete import LEVELS, REGULAR, SHORT, SOLVED, TINY, by_fcl, slanted
 from differ.draw import Draw, Size
 from differ.route import Route
+from differ.tangencies import LEVELS, REGULAR, SHORT, SOLVED, by_fcl, slanted
 from zygopin import (
     Foot,
     RestingRadii,

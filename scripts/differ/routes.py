@@ -6,17 +6,19 @@ from differ import (
     bones,
     clearances,
     descriptions,
-    discrete,
     planning,
     reaching,
     resting,
+    tangencies,
+    touches,
 )
 
 ROUTES = (
     *bones.ROUTES,
     *clearances.ROUTES,
     *reaching.ROUTES,
-    *discrete.ROUTES,
+    *touches.ROUTES,
+    *tangencies.ROUTES,
     *resting.ROUTES,
     *planning.ROUTES,
     *descriptions.ROUTES,
