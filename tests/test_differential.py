@@ -20,10 +20,12 @@ from differ import (
     bones,
     clearances,
     descriptions,
-    discrete,
     planning,
     reaching,
+    resting,
     running,
+    tangencies,
+    touches,
 )
 from differ.comparison import at_most, close, same
 from differ.corners import BRANCH_CORNERS, CORNER_NAMES, POSE_CORNERS
@@ -160,11 +162,16 @@ FAULTS = {
         changed(residual=lambda found: found.residual + 1e-9),
     ),
     "touch-intervals": (
-        discrete,
+        touches,
         "touch_intervals",
         changed(least=lambda found: found.least + 1e-9 * found.foot.size),
     ),
-    "stable-branches": (discrete, "stable_branches", says_no_branch),
+    "stable-branches": (tangencies, "stable_branches", says_no_branch),
+    "resting-branches": (
+        resting,
+        "resting_radii",
+        changed(radius=lambda found: found.radius * (1 + 1e-9)),
+    ),
     "planner": (planning, "plan_perch", says_none),
     "named-poses": (descriptions, "to_srdf", less_closed),
 }

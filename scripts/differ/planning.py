@@ -8,9 +8,9 @@ import numpy as np
 
 from differ.clearances import sure
 from differ.comparison import Comparison, same
-from differ.discrete import SHORT
 from differ.draw import Draw, Size
 from differ.route import Route
+from differ.tangencies import SHORT
 from zygopin import (
     Branch,
     Existence,

@@ -22,6 +22,7 @@ from zygopin import (
 )
 from zygopin.clearance import Floats, norm
 from zygopin.control_system import ControlSystem
+from zygopin.word_answer import WordAnswer
 
 MOST_POINTS = 4000
 """Points of a set that is enumerated."""
@@ -103,40 +104,58 @@ QUERIES = 12
 def against_search(drawn: Draw) -> Sequence[Comparison]:
     """`find_word` and `nearest_reachable` against all words there are."""
     foot, finger, rng = drawn.foot, _finger(drawn), drawn.rng
-    chosen = foot.fingers[finger]
-    levels = _levels(drawn, chosen.phalanges)
-    system = ControlSystem(foot.rho, foot.omega, levels, chosen.orientation)
+    levels = _levels(drawn, foot.fingers[finger].phalanges)
     _, tips = enumerated(foot, finger, levels)
     unit = foot.size / foot.scale
     targets = _targets(tips, unit, rng)
     tolerance = unit * 10 ** rng.uniform(-10, -0.5, QUERIES)
-    drawn.beyond.update(
-        finger=finger, levels=levels, targets=targets, tolerance=tolerance
+    drawn.beyond.update(finger=finger, levels=levels)
+    drawn.beyond.update(targets=targets, tolerance=tolerance)
+    found, near = _answers(foot, finger, levels, targets, tolerance)
+    least, band = (
+        np.abs(targets[:, None] - tips).min(axis=1),
+        rounding(foot) / foot.scale,
     )
-    least = np.abs(targets[:, None] - tips).min(axis=1)
-    found, near = (
-        [
-            search(complex(target), system, chosen.phalanges, tolerance=float(within))
-            for target, within in zip(targets, tolerance, strict=True)
-        ]
-        for search in (find_word, nearest_reachable)
-    )
-    band = rounding(foot) / foot.scale
-    nearest = np.array([each.distance for each in near])
-    reached = np.array([each.verdict == "reachable" for each in found])
-    none = np.array([each.verdict == "not_reachable" for each in found])
-    ended = _ends(foot, finger, np.array([each.controls for each in near]))
-    bounds = np.array([[each.lower_bound for each in many] for many in (found, near)])
+    verdicts = np.array([each.verdict for each in found])
     sure = np.abs(least - tolerance) > band
+    reached, none = verdicts == "reachable", verdicts == "not_reachable"
+    distance, bound = (
+        np.array([[getattr(each, name) for each in many] for many in (found, near)]).T
+        for name in ("distance", "lower_bound")
+    )
+    ended = np.stack([_apart(foot, finger, each, targets) for each in (found, near)], 1)
     return (
         same("reachable: search / enumeration", reached, least <= tolerance, sure),
         same("not reachable: search / enumeration", none, least > tolerance, sure),
-        close("nearest: search / enumeration", nearest, least, band),
-        close("nearest: search / its word", nearest, np.abs(ended - targets), band),
-        at_most(
-            "lower bounds / enumeration", bounds.T, least[:, None] + 0 * bounds.T, band
-        ),
+        close("nearest: search / enumeration", distance[:, 1], least, band),
+        close("distance: search / its word by Pinocchio", distance, ended, band),
+        at_most("lower bounds / enumeration", bound, least[:, None] + 0 * bound, band),
     )
+
+
+def _answers(
+    foot: Foot, finger: int, levels: Floats, targets: Complex, tolerance: Floats
+) -> tuple[list[WordAnswer], list[WordAnswer]]:
+    """For each target any word within the tolerance, and the nearest."""
+    chosen = foot.fingers[finger]
+    system = ControlSystem(foot.rho, foot.omega, levels, chosen.orientation)
+    asked = [*zip(targets.tolist(), tolerance.tolist(), strict=True)]
+    found, near = (
+        [search(point, system, chosen.phalanges, tolerance=t) for point, t in asked]
+        for search in (find_word, nearest_reachable)
+    )
+    return found, near
+
+
+def _apart(
+    foot: Foot, finger: int, found: list[WordAnswer], targets: Complex
+) -> Floats:
+    """How far words end from their targets by Pinocchio, in units of the scale."""
+    azimuth = foot.fingers[finger].azimuth
+    ahead = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
+    places = targets.real[:, None] * ahead + targets.imag[:, None] * (0.0, 0.0, 1.0)
+    tips = _tips(foot, finger, np.array([each.controls for each in found]))
+    return norm(tips - foot.scale * places) / foot.scale
 
 
 def _targets(tips: Complex, unit: float, rng: np.random.Generator) -> Complex:
@@ -146,18 +165,6 @@ def _targets(tips: Complex, unit: float, rng: np.random.Generator) -> Complex:
     share = np.choose(kind, [0.0, 10 ** rng.uniform(-11, -1, QUERIES), 1.0])
     start = np.where(kind == 2, 0.0, tips[rng.integers(len(tips), size=QUERIES)])
     return np.asarray(start + share * stray)
-
-
-def _ends(foot: Foot, finger: int, words: Floats) -> Complex:
-    """Where words end, by sums of plain numbers, in units of the scale."""
-    ends = []
-    for word in words.tolist():
-        pitch, tip = foot.fingers[finger].orientation, 0j
-        for rank, control in enumerate(word, start=1):
-            pitch += foot.omega * control
-            tip += foot.rho**-rank * complex(np.cos(pitch), -np.sin(pitch))
-        ends.append(tip)
-    return np.array(ends)
 
 
 POINTS = 4
@@ -212,7 +219,7 @@ ROUTES = (
     ),
     Route(
         "reach-words",
-        "find_word, nearest_reachable and their bounds / all words there are",
+        "find_word, nearest_reachable, bounds / all words there are; words / Pinocchio",
         f"{STATED}; verdicts alike, but within that of the tolerance asked for",
         against_search,
         Size(poses=1),

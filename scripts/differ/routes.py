@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
-from differ import bones, clearances, descriptions, discrete, planning, reaching
+from differ import (
+    bones,
+    clearances,
+    descriptions,
+    planning,
+    reaching,
+    resting,
+    tangencies,
+    touches,
+)
 
 ROUTES = (
     *bones.ROUTES,
     *clearances.ROUTES,
     *reaching.ROUTES,
-    *discrete.ROUTES,
+    *touches.ROUTES,
+    *tangencies.ROUTES,
+    *resting.ROUTES,
     *planning.ROUTES,
     *descriptions.ROUTES,
 )

@@ -1,4 +1,4 @@
-"""Routes to touches and tangencies: certified intervals, 2x2 systems, random poses."""
+"""Route to tangencies: all branches of a control set, FCL, random systems."""
 
 from __future__ import annotations
 
@@ -6,112 +6,22 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from differ.clearances import EPS, sure
-from differ.comparison import Comparison, at_most, close, same
+from differ.clearances import TINY, sure
+from differ.comparison import Comparison, at_most, same
 from differ.corners import CORNER_NAMES
 from differ.draw import Draw, Size
 from differ.route import Route
 from zygopin import (
-    Branch,
     Foot,
     check_grasp,
-    collision,
     forward_kinematics,
     make_engine,
     stable_branches,
-    touch_intervals,
-    touching_controls,
 )
 from zygopin.branch_solutions import BranchSolutions
 from zygopin.clearance import Floats, dot, norm
-from zygopin.grasp import THINNEST
 from zygopin.placement import Placement
 from zygopin.tangent_lines import Integers
-
-ULPS = 256
-"""Rounding of a distance to an axis, in units of the last place of the foot's size and
-of the axis' distance: the search's own bounds are widened by 64 of each finger's."""
-
-AXES = 2
-"""Axes that intervals are sought for; all poses are held against each."""
-
-MAX_BOXES = 1500
-"""Boxes for each end of an interval: a second at most. Brackets then stay wide."""
-
-
-def against_poses(drawn: Draw) -> Sequence[Comparison]:
-    """Touch intervals, witnesses and touching controls against plain distances."""
-    foot, axes = drawn.foot, drawn.branch[:AXES]
-    drawn.beyond.update(centres=axes.centre, axes=axes.axis)
-    found = touch_intervals(foot, axes, max_boxes=MAX_BOXES)
-    within = ULPS * EPS * (foot.size + norm(axes.centre).max())
-    poses = np.stack(
-        [_distances(foot, drawn.controls, axis) for axis in _each(axes)], 1
-    )
-    low, high = (
-        np.broadcast_to(bound, poses.shape)
-        for bound in (found.least[..., 0], found.most[..., 1])
-    )
-    near, far = (
-        np.concatenate(
-            [
-                _distances(foot, row[None], a)
-                for row, a in zip(c, _each(axes), strict=True)
-            ]
-        )
-        for c in (found.least_controls, found.most_controls)
-    )
-    return (
-        at_most("least distance / random poses", low, poses, within),
-        at_most("random poses / greatest distance", poses, high, within),
-        close("least distance / its witness", found.least[..., 1], near, within),
-        close("greatest distance / its witness", found.most[..., 0], far, within),
-        *_touching(foot, axes, found.least[..., 1], found.most[..., 0], within),
-    )
-
-
-def _each(axes: Branch) -> list[Branch]:
-    """The branches of a batch (n,), one by one."""
-    return [axes[i] for i in range(axes.batch_shape[0])]
-
-
-def _distances(foot: Foot, controls: Floats, axis: Branch) -> Floats:
-    """Least distance of each finger's skin from an axis line [m], shape (n, F)."""
-    bones = forward_kinematics(foot, controls) - axis.centre
-    flat = bones - dot(bones, axis.axis)[..., None] * axis.axis
-    start, line = flat[..., 0, :], flat[..., 1, :] - flat[..., 0, :]
-    square = np.maximum(dot(line, line), 1e-300)
-    t = np.clip(-dot(start, line) / square, 0, 1)[..., None]
-    inner = norm(start + t * line)
-    # A bone along the axis has its ends alone, and rounding may prefer them elsewhere.
-    nearest = np.minimum(inner, norm(flat).min(axis=-1)) - foot.radii
-    parts = foot.finger_slices.values()
-    return np.stack([nearest[:, part].min(axis=-1) for part in parts], axis=-1)
-
-
-def _touching(
-    foot: Foot, axes: Branch, low: Floats, high: Floats, within: float
-) -> Sequence[Comparison]:
-    """Controls that touch radii within the intervals, finger by finger, by FCL."""
-    intervals = touch_intervals(foot, axes, max_boxes=MAX_BOXES)
-    wanted = np.maximum((low + high) / 2, 0.0)
-    wide = (high - low > 4 * within) & (wanted > THINNEST * foot.size)
-    radius = np.where(wide, wanted, foot.size).T  # (F, n)
-    found = touching_controls(intervals, radius)
-    gaps = np.empty(radius.shape)
-    for finger, part in enumerate(foot.finger_slices.values()):
-        branch = Branch(radius[finger], axes.centre, axes.axis)
-        bones = forward_kinematics(foot, found.controls[finger])
-        near = collision.branch_clearance(bones, foot.radii, branch)
-        gaps[finger] = near.distance[:, part].min(axis=-1)
-    fingers = np.arange(len(gaps))
-    touching = found.touching[fingers, :, fingers]
-    gaps = np.where(wide.T, gaps, 0.0)
-    return (
-        same("touching inside the interval / yes", touching | ~wide.T, True | wide.T),
-        close("touching controls / FCL", gaps, 0 * gaps, within),
-    )
-
 
 LEVELS = 3
 """Most equal levels of the controls of `stable-branches`."""
@@ -138,14 +48,21 @@ def against_systems(drawn: Draw) -> Sequence[Comparison]:
     foot, rng = drawn.foot, drawn.rng
     pair = foot.opposable_pairs[int(rng.integers(len(foot.opposable_pairs)))]
     levels = np.linspace(0, 1, int(rng.integers(2, LEVELS + 1)))
-    place = Placement(_slanted(rng), *(foot.size * rng.normal(size=2) * [0.2, 0.2]))
+    place = Placement(slanted(rng), *(foot.size * rng.normal(size=2) * [0.2, 0.2]))
     drawn.beyond.update(pair=pair, levels=levels, placement=place)
     found = stable_branches(foot, (pair[0] + 1, pair[1] + 1), levels, placement=place)
-    return (*_by_fcl(found, rng), *_missing(found, levels, rng))
+    return (*by_fcl(found, rng), *_missing(found, levels, rng))
 
 
-def _slanted(rng: np.random.Generator) -> Floats:
-    """A direction that is not vertical; across the foot, every fourth time."""
+def slanted(rng: np.random.Generator) -> Floats:
+    """A direction that is not vertical; across the foot, every fourth time.
+
+    Args:
+        rng: Where it comes from.
+
+    Returns:
+        A vector of any length, shape (3,).
+    """
     if rng.random() < 0.25:
         return np.array([0.0, 1.0, 0.0])
     axis = rng.normal(size=3)
@@ -153,8 +70,16 @@ def _slanted(rng: np.random.Generator) -> Floats:
     return axis
 
 
-def _by_fcl(found: BranchSolutions, rng: np.random.Generator) -> Sequence[Comparison]:
-    """Contacts and verdicts of some solutions by FCL."""
+def by_fcl(found: BranchSolutions, rng: np.random.Generator) -> Sequence[Comparison]:
+    """Contacts and verdicts of some solutions by FCL.
+
+    Args:
+        found: The solutions.
+        rng: Where it comes from which of them.
+
+    Returns:
+        The comparisons; none without a solution.
+    """
     if not len(found):
         return ()
     some = rng.integers(len(found), size=min(THROUGH, len(found)))
@@ -211,7 +136,7 @@ def _solved(
     rank: Integers,
     rng: np.random.Generator,
 ) -> tuple[Floats, Floats, Floats]:
-    """Heights, radii, and determinants (0: a contact off a bone), shape (n,)."""
+    """Heights, radii, how well determined (0: a contact off a bone), shape (n,)."""
     rows = np.arange(len(controls))[:, None]
     starts = np.array([part.start for part in foot.finger_slices.values()])
     chosen = starts + rank - 1
@@ -220,7 +145,7 @@ def _solved(
     axis = np.asarray(place.axis)
     normal = np.cross(axis, line)
     size = norm(normal)[..., None]
-    normal = normal / np.maximum(size, 1e-300) * rng.choice([-1, 1], (*rank.shape, 1))
+    normal = normal / np.maximum(size, TINY) * rng.choice([-1, 1], (*rank.shape, 1))
     # n_z·h − r = n·x + skin, for a branch on the normal's side.
     right = dot(normal, bones[:, :, 0]) + foot.radii[chosen]
     slope = normal[..., 2]
@@ -234,9 +159,12 @@ def _solved(
     radius = slope[:, 0] * height - right[:, 0]
     offset = np.stack([0 * height, 0 * height, height], 1)[:, None] - bones[:, :, 0]
     flat = line - dot(line, axis)[..., None] * axis
-    t = dot(offset, flat) / np.maximum(dot(flat, flat), 1e-300)
+    t = dot(offset, flat) / np.maximum(dot(flat, flat), TINY)
     inside = (np.abs(t - 0.5) < 0.5 - INSIDE).all(axis=1)
-    return height, radius, np.where(good & inside, np.abs(determinant), 0.0)
+    # A short bone has a rounded direction.
+    steady = np.minimum(size[..., 0] / foot.size, 1.0).min(axis=1)
+    regular = np.abs(determinant) * steady
+    return height, radius, np.where(good & inside, regular, 0.0)
 
 
 def _counts(
@@ -265,14 +193,6 @@ SHORT = tuple(name for name in CORNER_NAMES if name != "twelve phalanges")
 
 ROUTES = (
     Route(
-        "touch-intervals",
-        "touch intervals, witnesses, touching controls / plain distances / FCL",
-        f"{ULPS} ulp of the foot's size and the axis' distance: rounding",
-        against_poses,
-        Size(poses=500, fingers=3, phalanges=4),
-        posed=False,
-    ),
-    Route(
         "stable-branches",
         "branches of a control set: contacts, verdicts / FCL; systems / found",
         f"the contact tolerance (FCL), {SOLVED:g} over the determinant (systems)",
@@ -282,4 +202,4 @@ ROUTES = (
         posed=False,
     ),
 )
-"""Routes to touches and tangencies."""
+"""Route to tangencies."""
