@@ -346,8 +346,6 @@ GOOD = {
 }
 """By a parameter's name, or by the entry's and its own: how a good value is made."""
 
-"""By a parameter's name, or by the entry's and its own: how a good value is made."""
-
 TEXTS = ("empty", "unknown", "capitals", "two lines", "long")
 MANY_TIMES = ("1e308", "-1e308")
 
