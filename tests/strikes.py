@@ -220,7 +220,7 @@ def deepest_before(automaton, end):
     )
     coarse = np.unique(np.append(np.arange(0, len(grid), COARSE), len(grid) - 1))
     gaps = _clearance(bones[coarse], foot, automaton.obstacle)
-    gaps[:, ~automaton.senses] = np.inf
+    gaps = np.where(automaton.senses, gaps, np.inf)
     least = float(gaps.min())
     step, phalanx = np.nonzero(np.ones(gaps[1:].shape, bool))
     low, high = grid[coarse][step], grid[coarse][step + 1]

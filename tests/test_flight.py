@@ -145,10 +145,10 @@ def test_speeds_are_those_of_the_stretch():
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"controls": 1.5}, r"controls\[0\] = 1.5 is not in \[0, 1\]"),
+        ({"controls": 1.5}, r"controls = 1.5 is not in \[0, 1\]"),
         ({"controls": [0, 1]}, r"controls.shape = \(2,\) is not of shape \(…, 14\)"),
         ({"controls": np.zeros((2, P))}, r"controls.shape = \(2, 14\) is not \(14,\)"),
-        ({"controls": math.nan}, "controls = nan is not a finite number"),
+        ({"controls": math.nan}, "controls = nan is not finite"),
         ({"controls": None}, "controls = None"),
         ({"controls": True}, "controls = True"),
         ({"controls": "open"}, "controls = 'open'"),
@@ -164,15 +164,15 @@ def test_speeds_are_those_of_the_stretch():
             {"controls": Law.through([0, 1], np.zeros((2, 3)))},
             r"controls.shape = \(3,\) is not \(14,\)",
         ),
-        ({"reversal": 1.5}, r"reversal over time\[0\] = 1.5 is not in \[0, 1\]"),
+        ({"reversal": 1.5}, r"reversal = 1.5 is not in \[0, 1\]"),
         ({"reversal": None}, "reversal = None"),
         ({"reversal": Law.through([0, 1], [0, -0.1])}, "reversal over time"),
         (
             {"reversal": Law.through([0, 1], [[0], [0.1]])},
             r"reversal.shape = \(1,\) is not \(\)",
         ),
-        ({"motion": "down"}, "flight.motion = 'str' is not a Motion"),
-        ({"motion": None}, "flight.motion = 'NoneType' is not a Motion"),
+        ({"motion": "down"}, "motion = 'str' is not a Motion"),
+        ({"motion": None}, "motion = 'NoneType' is not a Motion"),
     ],
 )
 def test_bad_flights_are_named(changes, message):

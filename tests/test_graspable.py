@@ -109,8 +109,8 @@ def test_a_foot_without_opposite_toes_grasps_nothing():
     ("arguments", "options", "words"),
     [
         ((0.02, 0.003), {}, "is not ascending: give the lesser radius first"),
-        ((0.0, 0.003), {}, "range of radii"),
-        ((0.003, math.nan), {}, "range of radii"),
+        ((0.0, 0.003), {}, "low = 0.0 is not a positive"),
+        ((0.003, math.nan), {}, "high = nan is not finite"),
         ((0.003, 0.02), {"samples": 1}, "samples = 1"),
         ((0.003, 0.02), {"tolerance": 0.0}, "tolerance = 0"),
         ((0.003, 0.02), {"levels": 1}, "levels = 1"),

@@ -227,7 +227,7 @@ def as_tolerance(tolerance: float) -> float:
     return checks.number(
         "tolerance",
         tolerance,
-        allowed=f"a number > 0, up to {checks.LARGEST:g}",
+        allowed=f"a finite number > 0, up to {checks.LARGEST:g}",
         where=lambda x: 0 < x <= checks.LARGEST,
         remedy="give a distance, in units in which the first phalanx has length 1/ρ",
     )
@@ -243,6 +243,7 @@ def as_points(name: str, points: ArrayLike) -> NDArray[np.complex128]:
     if given.dtype.kind not in f"{checks.REAL}c":
         raise ParameterError(name, points, "complex numbers", remedy)
     values = given.astype(np.complex128)
+    checks.require(name, values, np.isfinite(values), "finite", "give finite x + iz")
     near = np.abs(values.real) + np.abs(values.imag) <= checks.LARGEST
     checks.require(name, values, near, f"within {checks.LARGEST:g}", remedy)
     return values
