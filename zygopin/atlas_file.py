@@ -28,7 +28,8 @@ UNITS = {
 
 _LINES = ("heights", "radii", "axis", "offset")
 _NO_ARCHIVE = (
-    *(ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile, zlib.error),
+    *(ValueError, KeyError, TypeError, AttributeError, EOFError),
+    *(zipfile.BadZipFile, zlib.error),
     *(NotImplementedError, RuntimeError),  # an encrypted one, or by other methods
     MemoryError,  # what it says to hold
 )

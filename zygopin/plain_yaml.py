@@ -39,7 +39,7 @@ class _Loader(yaml.SafeLoader):
             ComposerError: It stands for a list or a mapping.
         """
         aliased = self.check_event(yaml.AliasEvent)
-        node = super().compose_node(parent, index)
+        node: Any = super().compose_node(parent, index)
         if aliased and not isinstance(node, yaml.ScalarNode):
             problem = "an alias repeats this list or mapping: write it out"
             raise yaml.composer.ComposerError(None, None, problem, node.start_mark)
