@@ -232,10 +232,10 @@ def test_the_command_lists_all_ways_within_eighty_columns():
     assert max(map(len, result.stdout.splitlines())) <= 80
 
 
-def test_the_document_says_what_is_proved():
+def test_the_document_says_what_is_proved(run):
     command = ["perch", "--radius-mm", "69", "--height-mm", "-71", "--all", "--json"]
-    result = CliRunner().invoke(main, command)
-    assert result.exit_code == 1
+    result = run(*command)
+    assert result.returncode == 1
     document = json.loads(result.stdout)
     assert document["verdict"]["existence"] == "none"
     assert "solutions" not in document

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import shutil
 from importlib.util import find_spec
@@ -10,7 +11,7 @@ from pathlib import Path
 from zygopin.archive import DAMAGE
 from zygopin.errors import FileError, MissingExtraError
 from zygopin.exchange import put
-from zygopin.files import as_path, check_folder
+from zygopin.files import as_path, check_folder, write_bytes
 from zygopin.sweep_dataset import Dataset, xarray
 
 NEEDED = {".nc": "h5netcdf", ".zarr": "zarr"}
@@ -61,19 +62,24 @@ def save_dataset(dataset: Dataset, path: Path | str) -> Path:
         FileError: It cannot be written.
         MissingExtraError: What writes such a file is not installed.
     """
-    suffix = check_output(path).suffix
+    if check_output(path).suffix == ".nc":
+        return write_bytes(path, _netcdf(dataset))
     target = Path(os.path.realpath(path))
-    part = target.with_name(f".{os.urandom(8).hex()}{suffix}")
+    part = target.with_name(f".{os.urandom(8).hex()}.zarr")
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        _write(dataset, part)
+        dataset.to_zarr(part, mode="w", zarr_format=ZARR_FORMAT, consolidated=True)
         put(part, target)
     except OSError as error:
         remedy = "name a file in a folder that can be written"
         problem = f"cannot be written: {error.strerror or error}"
         raise FileError(path, problem, remedy) from error
     finally:
-        _discard(part)
+        try:
+            shutil.rmtree(part, ignore_errors=True)
+        except BaseException:  # interrupted
+            shutil.rmtree(part, ignore_errors=True)
+            raise
     return Path(path)
 
 
@@ -121,22 +127,17 @@ def load_dataset(path: Path | str) -> Dataset:
     return loaded
 
 
-def _write(dataset: Dataset, path: Path) -> None:
-    """Write a dataset to a new place."""
-    if path.suffix == ".nc":
-        dataset.to_netcdf(path, engine="h5netcdf")
-    else:
-        dataset.to_zarr(path, mode="w", zarr_format=ZARR_FORMAT, consolidated=True)
+def _netcdf(dataset: Dataset) -> bytes:
+    """A dataset as a netCDF file, made in memory: HDF5 crashes where a disk is full."""
+    import h5netcdf
+    from xarray.backends import H5NetCDFStore
+
+    memory = io.BytesIO()
+    with h5netcdf.File(memory, "w") as file:
+        dataset.dump_to_store(H5NetCDFStore(file))
+    return memory.getvalue()
 
 
 def _is_zarr(path: Path) -> bool:
     """Whether a folder holds a Zarr dataset."""
     return any((path / name).is_file() for name in (".zgroup", "zarr.json"))
-
-
-def _discard(path: Path) -> None:
-    """Remove what was left half written."""
-    if path.is_dir():
-        shutil.rmtree(path, ignore_errors=True)
-    else:
-        path.unlink(missing_ok=True)

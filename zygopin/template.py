@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory, gettempdir
 from xml.parsers.expat import ExpatError
@@ -56,20 +56,22 @@ def expand(foot: Foot, *, tendon: bool = False) -> str:
     return str(document.toprettyxml(indent="  "))
 
 
-def _folder_with(foot: Foot) -> TemporaryDirectory[str]:
+@contextmanager
+def _folder_with(foot: Foot) -> Iterator[str]:
     """A temporary folder that holds a foot's file, and that xacro can be told of."""
     remedy = "set TMPDIR to another folder"
-    try:
-        if "$" in (place := gettempdir()):
-            problem = f"the folder {place} has a $ in its name, which xacro evaluates"
-            raise DescriptionError(problem, remedy)
-        folder = TemporaryDirectory(prefix="zygopin-")
-        text = yaml.safe_dump(foot.to_mapping())
-        (Path(folder.name) / FILE).write_text(text, encoding="utf-8")
-    except OSError as error:
-        problem = f"no temporary file can be written: {error.strerror or error}"
-        raise DescriptionError(problem, remedy) from error
-    return folder
+    with ExitStack() as stack:
+        try:
+            if "$" in (place := gettempdir()):
+                problem = f"the folder {place} has a $ in its name, which xacro runs"
+                raise DescriptionError(problem, remedy)
+            folder = stack.enter_context(TemporaryDirectory(prefix="zygopin-"))
+            text = yaml.safe_dump(foot.to_mapping())
+            (Path(folder) / FILE).write_text(text, encoding="utf-8")
+        except OSError as error:
+            problem = f"no temporary file can be written: {error.strerror or error}"
+            raise DescriptionError(problem, remedy) from error
+        yield folder
 
 
 @contextmanager
