@@ -203,3 +203,12 @@ def test_bad_input_is_named(system, change, message):
     with pytest.raises(ParameterError, match=message) as caught:
         find_word(values.pop("target"), system, **values)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("levels", [3, None])
+def test_a_proof_near_rho_1_is_as_sharp_as_any(levels):
+    # Five phalanges of nearly length 1; an endless toe would be of length 1e15.
+    system = ControlSystem(1 + 1e-15, 1.0, levels)
+    found = find_word(7.0, system, 5, tolerance=0.1)
+    assert found.verdict == "not_reachable"
+    assert 1 < found.lower_bound <= 2

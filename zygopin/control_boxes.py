@@ -116,7 +116,9 @@ class BoxSearch:
         self.rank = np.arange(1.0, self.goal.depth + 1)
         self.lengths = self.system.rho**-self.rank
         self.reaches = np.cumsum(self.lengths[::-1])[::-1]
-        self.margin = ROUNDING * (self.system.tail(0) + abs(self.goal.target))
+        self.margin = ROUNDING * (
+            self.system.tail(0, self.goal.depth) + abs(self.goal.target)
+        )
 
     @property
     def limit(self) -> float:

@@ -95,7 +95,11 @@ class ControlSystem:
         if isinstance(total, float) and total == math.inf:
             return depth_bound(self.rho, depth)
         total = checks.integer("total", total, depth, MAX_DEPTH)
-        return depth_bound(self.rho, depth) - depth_bound(self.rho, total)
+        if math.isinf(total):
+            return depth_bound(self.rho, depth)
+        # Not the difference of two endless tails: near ρ = 1 both are huge.
+        rank = np.arange(depth + 1.0, total + 1)
+        return float(np.sum(self.rho**-rank))
 
 
 def depth_bound(rho: float, depth: float) -> float:

@@ -75,7 +75,7 @@ def answer(
         The answer; its distance is measured anew from the controls.
     """
     distance = abs(tip(system, controls) - goal.target)
-    margin = ROUNDING * (system.tail(0) + abs(goal.target))
+    margin = ROUNDING * (system.tail(0, goal.depth) + abs(goal.target))
     lower = max(0.0, min(distance, open_bound) - margin)
     verdict: Verdict = "undecided"
     if distance <= goal.tolerance:

@@ -90,7 +90,7 @@ class _Search:
         self.factors = self.system.factors
         self.angles = self.system.omega * self.system.finite_levels
         self.centres, self.radii = arc_discs(self.system, self.goal.depth)
-        reach = self.system.tail(0) + abs(self.goal.target)
+        reach = self.system.tail(0, self.goal.depth) + abs(self.goal.target)
         self.margin = ROUNDING * reach
         self.branches = max(self.goal.depth - 2, 0)
 

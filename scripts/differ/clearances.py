@@ -172,9 +172,9 @@ def _capsules(
     return [*zip(map(coal.Capsule, radii, length), places, strict=True)]
 
 
-END_ACCURACY = 1e-2
+END_ACCURACY = 3e-2
 """FCL's capsule against capped cylinder, over the foot's size: 3e-7 in the median, a
-tail to 4e-3. Its iteration, not rounding, sets it."""
+tail to 8e-3. Its iteration, not rounding, sets it."""
 
 SAMPLED = 1e-9
 """Accuracy of the least value found by sampling, over the foot's size and the
