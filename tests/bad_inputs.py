@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from bad_ranges import ACCEPTED, OUT
 from bad_values import (
     CALLABLES,
     FLAGS,
@@ -34,7 +35,7 @@ from bad_values import (
     paths,
     without,
 )
-from good_inputs import ACCEPTED, GOOD, INTERNAL, OUT, OWNERS, RECORDS
+from good_inputs import GOOD, INTERNAL, OWNERS, RECORDS
 
 import zygopin
 

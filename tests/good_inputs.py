@@ -1,13 +1,34 @@
-"""Good arguments for every public entry: small, so that the table is quick."""
+"""Good arguments for every public entry, and whose methods they are given to."""
 
 from __future__ import annotations
 
 import math
-import tempfile
-from functools import cache
-from pathlib import Path
 
 import numpy as np
+from examples import (
+    atlas,
+    ball,
+    branch,
+    contacts,
+    design,
+    flight,
+    folder,
+    foot,
+    grid,
+    intervals,
+    law,
+    locked_foot,
+    model,
+    motion,
+    plan,
+    saved_atlas,
+    solutions,
+    strength,
+    strike,
+    system,
+    tendon_foot,
+    urdf,
+)
 
 import zygopin as zg
 
@@ -50,121 +71,6 @@ not looked at again. Where they are handed back, what reads them is in the table
 
 INTERNAL = {"Branch.entries", "BranchGrid.line", "BranchGrid.centres"}
 """Methods that take what the package makes for itself."""
-
-
-@cache
-def folder():
-    return Path(tempfile.mkdtemp(prefix="good-"))
-
-
-@cache
-def foot():
-    fingers = (
-        zg.Finger("ahead", 2, 0.0, reversed_azimuth=1.0),
-        zg.Finger("behind", 2, math.pi),
-    )
-    return zg.Foot(rho=1.2, omega=1.4, scale=0.02, thickness=0.004, fingers=fingers)
-
-
-@cache
-def branch():
-    return zg.Branch(0.005, (0.0, 0.0, -0.009))
-
-
-@cache
-def plan():
-    return zg.plan_perch(foot(), branch(), find_height=True)
-
-
-@cache
-def contacts():
-    return zg.branch_contacts(plan().report)
-
-
-@cache
-def model():
-    return zg.FootModel(foot())
-
-
-@cache
-def strength():
-    return zg.Strength(1.0, zg.Friction(0.5))
-
-
-@cache
-def grid():
-    return zg.BranchGrid([-0.02, -0.012], [0.004, 0.006])
-
-
-@cache
-def atlas():
-    return zg.branch_atlas(foot(), grid())
-
-
-@cache
-def system():
-    return zg.ControlSystem(1.5, 1.0, 3)
-
-
-@cache
-def ball():
-    return zg.Sphere(0.005, (0.0, 0.0, 0.0))
-
-
-@cache
-def flight():
-    return zg.Attack().flight(foot(), radius=0.005)
-
-
-@cache
-def strike():
-    return zg.simulate_strike(foot(), ball(), flight(), frames=20)
-
-
-def tendon_foot():
-    return zg.TendonFoot(foot(), ball(), flight())
-
-
-def locked_foot():
-    down = zg.Motion.through([0, 1, 9], [[0, 0, 0.1], [0, 0, 0.007], [0, 0, 0.007]])
-    made = zg.TendonFoot(foot(), ball(), zg.Flight(down))
-    made.run(2.0)
-    return made
-
-
-@cache
-def solutions():
-    return zg.stable_branches(foot(), (1, 2))
-
-
-@cache
-def intervals():
-    return zg.touch_intervals(foot(), branch(), tolerance=0.01)
-
-
-@cache
-def saved_atlas():
-    return zg.save_atlas(atlas(), folder() / "atlas.npz")
-
-
-def motion():
-    return zg.Motion.resting()
-
-
-def law():
-    return zg.Law.constant(0.5)
-
-
-@cache
-def design():
-    radii = zg.graspable_radii(foot(), 0.004, 0.006, levels=2, samples=2)
-    return zg.Design(radii, radii, {"rho": (1.1, 1.3)}, 16)
-
-
-@cache
-def urdf():
-    return zg.to_urdf(foot())
-
 
 OWNERS = {
     "Atlas": atlas,
@@ -345,61 +251,3 @@ GOOD = {
     "design": design,
 }
 """By a parameter's name, or by the entry's and its own: how a good value is made."""
-
-TEXTS = ("empty", "unknown", "capitals", "two lines", "long")
-MANY_TIMES = ("1e308", "-1e308")
-
-ACCEPTED = {
-    "Finger.name": ("unknown",),
-    "Foot.name": ("unknown",),
-    "BranchGrid.heights": ("a number",),
-    "BranchGrid.radii": ("a number",),
-    "Closing.at.times": ("last axis longer", "last axis empty", "a number"),
-    "Closing.when.value": MANY_TIMES,
-    "Contact.tolerance": ("1e308",),  # each foot has its own limit: see Criteria.metres
-    "Criteria.tolerance": ("1e308",),
-    "ControlSystem.tail.total": ("inf",),
-    "levels": ("a million",),  # all of them 0: one level
-    "count_systems.levels": (),
-    "Flight.controls": ("mapping",),  # which fingers there are is the foot's to say
-    "Law.rate.start": MANY_TIMES,
-    "Law.rate.end": MANY_TIMES,
-    "Motion.bounds.start": MANY_TIMES,
-    "Motion.bounds.end": MANY_TIMES,
-    "TendonFoot.run.until": ("-1e308",),  # a time that has passed
-    "export_atlas_scene.height": MANY_TIMES,  # the nearest of the grid's
-    "forward_kinematics.out": ("nan", "inf", "-inf"),  # all of it is overwritten
-    "graspable_radii.tolerance": ("1e308",),
-    "strike_area.reversal": ("last axis longer", "last axis empty", "a number"),
-    "talon_hull_area.reversal": ("last axis longer", "last axis empty", "a number"),
-    "title": TEXTS,
-    "to_mjcf_scene.model": (*TEXTS, "surrogate"),
-}
-"""By a parameter's name, or by the entry's and its own: labels of bad values that are
-legitimate there."""
-
-OUT = {
-    "rho": [("1", 1.0), ("0", 0.0), ("101", 101.0)],
-    "omega": [("0", 0.0), ("π", math.pi), ("2π", 2 * math.pi)],
-    "splay": [("negative", -0.1), ("π/2", math.pi / 2)],
-    "zygodactyl_fingers.splay": [],
-    "scale": [("0", 0.0), ("negative", -1.0)],
-    "radius": [("0", 0.0), ("negative", -1.0)],
-    "Attack.flight.radius": [("negative", -1.0)],
-    "strike_area.radius": [("negative", -1.0)],
-    "spread_study.radius": [("negative", -1.0)],
-    "controls": [("above 1", np.full(4, 1.5)), ("negative", np.full(4, -0.1))],
-    "threads": [("0", 0), ("257", 257)],
-    "workers": [("0", 0)],
-    "tolerance": [("0", 0.0), ("negative", -1.0)],
-    "length": [("0", 0.0), ("negative", -1.0)],
-    "axis": [("zero", (0.0, 0.0, 0.0))],
-    "direction": [("zero", (0.0, 0.0, 0.0))],
-    "mass": [("0", 0.0), ("negative", -1.0)],
-    "Box.rotation": [("no rotation", np.ones((3, 3))), ("mirror", -np.eye(3))],
-    "depth": [("-1", -1), ("1001", 1001)],
-    "frames": [("1", 1)],
-    "coefficient": [("negative", -0.1)],
-    "edges": [("2", 2), ("65", 65)],
-}
-"""Values out of range, by a parameter's name, or by the entry's and its own."""

@@ -13,7 +13,7 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from good_inputs import (
+from examples import (
     ball,
     branch,
     contacts,

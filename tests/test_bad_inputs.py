@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 from bad_inputs import ENTRIES, Entry, accepted, bad, good
-from good_inputs import ACCEPTED, GOOD, INTERNAL, OUT, OWNERS, RECORDS
+from bad_ranges import ACCEPTED, OUT
+from good_inputs import GOOD, INTERNAL, OWNERS, RECORDS
 
 from zygopin.errors import ZygopinError
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from bad_inputs import ENTRIES, good
-from good_inputs import branch, foot
+from examples import branch, foot
 
 import zygopin as zg
 

@@ -95,8 +95,6 @@ class ControlSystem:
         if isinstance(total, float) and total == math.inf:
             return depth_bound(self.rho, depth)
         total = checks.integer("total", total, depth, MAX_DEPTH)
-        if math.isinf(total):
-            return depth_bound(self.rho, depth)
         # Not the difference of two endless tails: near ρ = 1 both are huge.
         rank = np.arange(depth + 1.0, total + 1)
         return float(np.sum(self.rho**-rank))
