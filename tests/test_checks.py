@@ -30,7 +30,7 @@ def test_anything_that_is_a_number_becomes_a_float(value):
     assert result == 2.0
 
 
-@pytest.mark.parametrize("value", NOT_NUMBERS, ids=repr)
+@pytest.mark.parametrize("value", NOT_NUMBERS, ids=kind_of)
 def test_what_is_no_finite_number_is_refused(value):
     with pytest.raises(ParameterError, match=r"^x = .* is not a finite number: give"):
         checks.number("x", value)
@@ -50,7 +50,7 @@ def test_a_whole_number_becomes_an_int(value):
     assert result == 2
 
 
-@pytest.mark.parametrize("value", [0, 4, 2.5, *NOT_NUMBERS], ids=repr)
+@pytest.mark.parametrize("value", [0, 4, 2.5, *NOT_NUMBERS], ids=kind_of)
 def test_what_is_no_integer_in_range_is_refused(value):
     with pytest.raises(ParameterError, match="is not an integer from 1 to 3: give an"):
         checks.integer("n", value, 1, 3)
