@@ -141,7 +141,7 @@ def test_no_name_leads_out_of_an_output_folder(name, tmp_path):
     (folder / "out").symlink_to(tmp_path / "a")
     with pytest.raises(FileError, match=r"out of its folder: remove the link"):
         within(folder, name)
-    with pytest.raises(FileError, match="cannot be written: embedded null"):
+    with pytest.raises(FileError, match=r"cannot be written: .*null"):
         within(folder, "a\0b")
     assert within(folder, "below", "a") == folder / "below" / "a"
     linked = tmp_path / "linked"
