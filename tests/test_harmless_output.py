@@ -141,7 +141,7 @@ def test_no_name_leads_out_of_an_output_folder(name, tmp_path):
     (folder / "out").symlink_to(tmp_path / "a")
     with pytest.raises(FileError, match=r"out of its folder: remove the link"):
         within(folder, name)
-    with pytest.raises(FileError, match="cannot be written: embedded null"):
+    with pytest.raises(FileError, match=r"cannot be written: .*null"):
         within(folder, "a\0b")
     assert within(folder, "below", "a") == folder / "below" / "a"
     linked = tmp_path / "linked"
@@ -196,7 +196,7 @@ save_atlas(atlas, folder + "/c.npz")
 plot_atlas(atlas, folder + "/c.png")
 export_reach_scene(foot, folder + "/d.html", levels=2)
 save_strike(safety.made_strike(), folder + "/e.json")
-write_description(foot.replace(rho=1.3), folder + "/f", mjcf=True, glb=True)
+write_description(foot.replace(rho=1.3), folder + "/f", glb=True)
 safety.paper_page(None, pathlib.Path(folder, "g.html"), "A title")
 FootModel(foot).forward(np.ones(14))
 held = []

@@ -53,12 +53,12 @@ class GraspableRadii:
     @property
     def length(self) -> float:
         """Length of the intervals together [m]."""
-        return sum(high - low for low, high in self.intervals)
+        return math.fsum(high - low for low, high in self.intervals)
 
     @property
     def log_length(self) -> float:
         """∫ dr/r over the intervals: log(high/low) where all radii are graspable."""
-        return sum(math.log(high / low) for low, high in self.intervals)
+        return math.fsum(math.log(high / low) for low, high in self.intervals)
 
     @property
     def share(self) -> float:

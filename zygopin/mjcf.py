@@ -7,6 +7,7 @@ the same foot is the same text everywhere, and writing it needs no MuJoCo.
 
 from __future__ import annotations
 
+import math
 from xml.etree import ElementTree as ET
 
 from zygopin import dynamics, names
@@ -174,7 +175,7 @@ def _add_tendon(root: ET.Element, foot: SimulatedFoot) -> None:
 def _shares(foot: SimulatedFoot) -> dict[str, float]:
     """{flexion joint: its share of the tendon's pull}, together 1."""
     drives = {joint: foot.drives[joint].stiffness for joint in foot.flexion_joints}
-    whole = sum(drives.values())
+    whole = math.fsum(drives.values())
     return {joint: stiffness / whole for joint, stiffness in drives.items()}
 
 
@@ -195,7 +196,8 @@ def _add_flexor(parent: ET.Element, foot: SimulatedFoot) -> None:
     the stiffness K of all joints together: in balance where every angle is ctrl.
     """
     drives = [foot.drives[joint] for joint in foot.flexion_joints]
-    strength, springs = sum(d.stiffness for d in drives), sum(d.spring for d in drives)
+    strength = math.fsum(drive.stiffness for drive in drives)
+    springs = math.fsum(drive.spring for drive in drives)
     limits = {"ctrlrange": exact(0, foot.foot.omega), "forcerange": brief(0, strength)}
     law = {"gainprm": brief(strength + springs), "biasprm": brief(0, -strength)}
     flexor = {"name": FLEXOR, "tendon": FLEXOR, "biastype": "affine"}
@@ -208,7 +210,9 @@ def _add_keyframes(
     """Add the poses, and the controls that hold them."""
     base = (0, 0, 0, 1, 0, 0, 0) if free else ()
     for pose, angles in foot.keyframes.items():
-        mean = sum(share * angles[joint] for joint, share in _shares(foot).items())
+        shares = _shares(foot).items()
+        # `sum` rounds otherwise from one Python to another.
+        mean = math.fsum(share * angles[joint] for joint, share in shares)
         pull = (min(mean, foot.foot.omega),) if tendon else ()
         servos = [angles[joint] for joint in _servo_joints(foot, tendon)]
         place = exact(*base, *(angles[joint] for joint in foot.drives))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
@@ -40,7 +41,7 @@ class SimulatedFoot:
     @cached_property
     def drives(self) -> dict[str, JointDynamics]:
         """{joint: what drives it}; a reversal has its first phalanx's lever."""
-        mass = sum(body.mass for body in self.bodies.values())
+        mass = math.fsum(body.mass for body in self.bodies.values())
         moved: dict[str, str] = {}
         for finger in self.foot.fingers:
             links = names.phalanx_links(finger)

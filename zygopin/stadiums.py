@@ -8,6 +8,7 @@ touch or coincide need no tolerance.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -76,7 +77,7 @@ class Stadiums:
         """Area of the union [m²]."""
         cuts = np.unique(np.concatenate([self._ends(), self._crossings()]))
         blocks = range(0, len(cuts) - 1, SLABS)
-        return float(sum(self._slabs(cuts[k : k + SLABS + 1]) for k in blocks))
+        return math.fsum(self._slabs(cuts[k : k + SLABS + 1]) for k in blocks)
 
     def _ends(self) -> _Cuts:
         """Where each edge begins, bends and ends."""

@@ -177,7 +177,7 @@ def _polygon(azimuth: float) -> float:
     one, two, three = math.pi * 11 / 12, math.pi / 12, -math.pi / 12 + math.tau
     around = [(length[1], two), (length[0], one), (length[3], azimuth)]
     around += [(length[2], three), (length[1], two + math.tau)]
-    return sum(a * b * math.sin(v - u) / 2 for (a, u), (b, v) in pairwise(around))
+    return math.fsum(a * b * math.sin(v - u) / 2 for (a, u), (b, v) in pairwise(around))
 
 
 def _strikes(owl: Foot, study: SpreadStudy) -> tuple[Measurement, ...]:

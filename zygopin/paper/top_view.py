@@ -134,5 +134,5 @@ def misfit_by_hand(rho: float, counts: tuple[int, ...]) -> float:
     """
     distances = [77.5, 105.5, 131.5, 154.5]
     toes = [(1 - rho**-count) / (rho - 1) for count in counts]
-    product = sum(a * b for a, b in zip(distances, toes, strict=True))
+    product = math.fsum(a * b for a, b in zip(distances, toes, strict=True))
     return math.sqrt(1 - (product / math.hypot(*distances) / math.hypot(*toes)) ** 2)

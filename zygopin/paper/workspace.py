@@ -131,7 +131,7 @@ def _extent(reach: FingerReach) -> tuple[Measurement, ...]:
     height = math.sqrt(3) / 2
     # Straight; closed; phalanges at 30°, 60°, 90°, 90°.
     ends = {
-        "x_max": (points.real.max(), sum(length[1:])),
+        "x_max": (points.real.max(), math.fsum(length[1:])),
         "x_min": (
             points.real.min(),
             height * length[1] + (length[2] - length[4]) / 2,
