@@ -196,7 +196,7 @@ save_atlas(atlas, folder + "/c.npz")
 plot_atlas(atlas, folder + "/c.png")
 export_reach_scene(foot, folder + "/d.html", levels=2)
 save_strike(safety.made_strike(), folder + "/e.json")
-write_description(foot.replace(rho=1.3), folder + "/f", mjcf=True, glb=True)
+write_description(foot.replace(rho=1.3), folder + "/f", glb=True)
 safety.paper_page(None, pathlib.Path(folder, "g.html"), "A title")
 FootModel(foot).forward(np.ones(14))
 held = []

@@ -101,9 +101,7 @@ def report(made, path):
 
 
 KINDS = {
-    "description": Kind(
-        "folder", foot, lambda made, path: write_description(made, path, glb=True)
-    ),
+    "description": Kind("folder", foot, write_description),
     "scene": Kind("a.html", grasp, export_scene),
     "figure": Kind(
         "a.png", int, lambda version, path: save_figure(figure(version), path)

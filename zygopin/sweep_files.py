@@ -7,6 +7,7 @@ import os
 import shutil
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 from zygopin.archive import DAMAGE
 from zygopin.errors import FileError, MissingExtraError
@@ -67,8 +68,9 @@ def save_dataset(dataset: Dataset, path: Path | str) -> Path:
     target = Path(os.path.realpath(path))
     part = target.with_name(f".{os.urandom(8).hex()}.zarr")
     try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        dataset.to_zarr(part, mode="w", zarr_format=ZARR_FORMAT, consolidated=True)
+        for name, content in _zarr(dataset).items():
+            (part / name).parent.mkdir(parents=True, exist_ok=True)
+            (part / name).write_bytes(content)
         put(part, target)
     except OSError as error:
         remedy = "name a file in a folder that can be written"
@@ -136,6 +138,19 @@ def _netcdf(dataset: Dataset) -> bytes:
     with h5netcdf.File(memory, "w") as file:
         dataset.dump_to_store(H5NetCDFStore(file))
     return memory.getvalue()
+
+
+def _zarr(dataset: Dataset) -> dict[str, bytes]:
+    """A dataset as the files of a Zarr folder: Zarr's threads outlive interruptions.
+
+    Made in memory, where what they write late is in nobody's way.
+    """
+    files: dict[str, Any] = {}
+    dataset.to_zarr(files, mode="w", zarr_format=ZARR_FORMAT, consolidated=True)
+    return {
+        name: content.to_bytes() if hasattr(content, "to_bytes") else content
+        for name, content in files.items()  # buffers, or bytes before Zarr 3
+    }
 
 
 def _is_zarr(path: Path) -> bool:
