@@ -134,7 +134,7 @@ def test_a_kill_at_any_moment_leaves_old_or_new(tmp_path):
 
 
 def test_ctrl_c_ends_the_command_its_workers_and_what_was_begun(tmp_path):
-    options = ("--radius-mm", "3:60:200", "--workers", "2", "-o", "a.nc")
+    options = ("--radius-mm", "3:60:2000", "--workers", "2", "-o", "a.nc")
     command = [sys.executable, "-m", "zygopin", "sweep", *options]
     with subprocess.Popen(
         command,

@@ -57,7 +57,7 @@ def test_they_agree_for_any_foot(data):
 
 @pytest.mark.parametrize(
     ("rho", "scale", "thickness", "density"),
-    [(100.0, 1e-6, 1e-300, 1e-3), (1.0000001, 1e6, 9e5, 1e6)],
+    [(10.0, 1e-6, 1e-300, 1e-3), (1.0000001, 1e6, 9e5, 1e6)],
 )
 def test_the_smallest_and_the_largest_foot_are_valid(rho, scale, thickness, density):
     finger = Finger("toe", 12, 1.0, reversed_azimuth=2.0)
