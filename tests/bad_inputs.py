@@ -122,7 +122,8 @@ def _of_class(name: str, kind: type) -> Iterator[Entry]:
         yield _entry(name, kind)
     for method, value in vars(kind).items():
         full = f"{name}.{method}"
-        if method.startswith("_") or full in INTERNAL:
+        # Names beyond ASCII: scripts/mutants keeps its variants beside the methods.
+        if method.startswith("_") or not method.isascii() or full in INTERNAL:
             continue
         if isinstance(value, classmethod):
             yield _entry(full, getattr(kind, method))

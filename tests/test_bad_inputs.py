@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -17,20 +18,38 @@ LONGEST = 500
 """Characters of a message: a line, with room for a path."""
 
 
-OTHERWISE = {"base": "pose", "cells": "cell", "joints": "joint", "levels": "level"}
-OTHERWISE |= {"radii": "bones.shape"}
+OTHERWISE = {
+    "base": "pose",
+    "cells": "cell",
+    "fingers": "finger",
+    "joints": "joint",
+    "levels": "level",
+    "controls": "finger",
+    "prefer": "preference",
+    "until": "span of motion",
+    "urdf": "URDF",
+    "normal_force": "toe force",
+    "pair": "finger",
+    "radii": "bones.shape",
+    "x": "branch.centre",
+    "y": "branch.centre",
+}
 """What a message may call a parameter besides its name."""
+
+BY_VALUE = ("bounds", "folder", "mapping", "name", "output", "path", "title")
+"""What messages show instead: files, names, and parameters that are in others."""
 
 
 def names(message: str, parameter: str, value: object) -> bool:
     """Whether a message says which value it is about."""
-    called = OTHERWISE.get(parameter, parameter)
-    shown = [parameter, called, parameter.replace("_", " "), type(value).__name__]
-    try:
-        shown += [repr(value)[:20], str(value)[:20], str(value)[-20:]]
-    except ValueError:  # more digits than Python writes
-        shown += ["huge"]
-    if isinstance(value, (list, tuple, dict)) and len(value) < LONGEST:
+    called = [parameter, OTHERWISE.get(parameter, parameter)]
+    called.append(parameter.replace("_", " "))
+    if any(re.search(rf"(?<!\w){re.escape(text)}(?!\w)", message) for text in called):
+        return True
+    if parameter not in BY_VALUE:
+        return False
+    shown = [type(value).__name__, repr(value)[:20], str(value)[:20], str(value)[-20:]]
+    if isinstance(value, dict):
         shown += [str(each) for each in value]
     return any(text and text in message for text in shown)
 

@@ -133,6 +133,11 @@ def test_a_kill_at_any_moment_leaves_old_or_new(tmp_path):
     }
 
 
+def _heeds_ctrl_c():
+    """What a shell starts in the background ignores it."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def test_ctrl_c_ends_the_command_its_workers_and_what_was_begun(tmp_path):
     options = ("--radius-mm", "3:60:2000", "--workers", "2", "-o", "a.nc")
     command = [sys.executable, "-m", "zygopin", "sweep", *options]
@@ -143,6 +148,7 @@ def test_ctrl_c_ends_the_command_its_workers_and_what_was_begun(tmp_path):
         stderr=subprocess.PIPE,
         text=True,
         start_new_session=True,
+        preexec_fn=_heeds_ctrl_c,
     ) as process:
         parts = tmp_path / "a.nc.parts"
         while process.poll() is None and not list(parts.glob("*.npz")):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import re
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from strategies import controls_for, feet, reals
 
+from zygopin.checks import MOST_TURNED
 from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.foot import Finger, Foot
 from zygopin.kinematics import (
@@ -115,6 +117,15 @@ def test_mirrored_azimuths_mirror_the_foot(posed):
     bones = forward_kinematics(foot, controls, azimuths=azimuths)
     mirrored = forward_kinematics(foot, controls, azimuths=np.negative(azimuths))
     assert (mirrored == bones * (1, -1, 1)).all()
+
+
+def test_an_azimuth_of_too_many_turns_is_named():
+    foot = one_finger(2)
+    most = MOST_TURNED
+    forward_kinematics(foot, [0, 0], azimuths=[-most])
+    complaint = f"azimuths[0] = {2 * most} is not within {most:g}: give radians"
+    with pytest.raises(ParameterError, match=f"^{re.escape(complaint)}$"):
+        forward_kinematics(foot, [0, 0], azimuths=[2 * most])
 
 
 def test_fingers_of_equal_length_at_opposite_azimuths_are_mirror_images():

@@ -103,10 +103,8 @@ class Contacts:
         Returns:
             Wrench [N], shape (…, 6).
         """
-        push, place = (
-            checks.array("force", force, last=3),
-            checks.places("point", point),
-        )
+        push = checks.array("force", force, last=3)
+        place = checks.places("point", point)
         checks.common_batch("force and point", push.shape[:-1], place.shape[:-1])
         arm = place - self.origin
         return np.concatenate([push, np.cross(arm, push) / self.scale], axis=-1)
