@@ -24,7 +24,7 @@ LAYERS = (
     "word_tree",
     "control_boxes",
     "inverse",
-    "cells",
+    "nets",
     "raster",
     "extent",
     "stadiums",

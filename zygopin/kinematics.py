@@ -152,7 +152,6 @@ def as_azimuths(foot: Foot, azimuths: ArrayLike | None) -> NDArray[np.float64]:
     Raises:
         ParameterError: An angle is not finite, or the length is wrong.
     """
-    kinds.instance("foot", foot, Foot)
     if azimuths is None:
         azimuths = [finger.azimuth for finger in foot.fingers]
     values = checks.array("azimuths", azimuths, last=len(foot.fingers))
