@@ -44,7 +44,12 @@ NAMED = ("Reading", "Preference", "Section", "Phalanges", "Sensing", "EngineName
 
 LEVELS = listed(
     without(NUMBERS, "list", "array of one"),
-    [("outside", [0.0, 1.5]), ("nan inside", [0.0, math.nan]), ("table", [[0.0]])],
+    [
+        ("outside", [0.0, 1.5]),
+        ("nan inside", [0.0, math.nan]),
+        ("table", [[0.0]]),
+        ("ragged", [[0.0], [0.0, 1.0]]),
+    ],
 )
 CLOSINGS = listed(
     without(NAMES, "list"),

@@ -13,6 +13,14 @@ Bad = tuple[str, object]
 Kind = Callable[[object, Path], Iterator[Bad]]
 """The bad values that stand beside a good one; files are made in the folder."""
 
+
+class Refuses:
+    """Numbers on another device, which NumPy may not have."""
+
+    def __array__(self, *_: object, **__: object) -> np.ndarray:
+        raise RuntimeError("copy it to the host first")
+
+
 MANY = 10**6
 LONG = "x" * 10**5
 
@@ -155,6 +163,7 @@ def arrays_of_any_shape(good: object, _folder: Path) -> Iterator[Bad]:
     yield "text", "abc"
     yield "mapping", {"x": 1.0}
     yield "object", object()
+    yield "tensor", Refuses()
 
 
 def paths(_good: object, folder: Path) -> Iterator[Bad]:

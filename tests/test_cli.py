@@ -274,6 +274,19 @@ def test_output_that_cannot_be_written_is_one_line_and_status_2():
     assert len(result.stderr.splitlines()) == 1
 
 
+@pytest.mark.parametrize("command", ["presets", "perch --radius-mm 8 --json"])
+def test_output_that_is_closed_is_one_line_and_status_2(command):
+    words = f"{shlex.quote(sys.executable)} -m zygopin {command} >&-"
+    result = subprocess.run(
+        ["bash", "-c", words],
+        stderr=subprocess.PIPE,
+        text=True,
+        check=False,
+    )
+    assert result.returncode == 2
+    assert result.stderr == "zygopin: the output cannot be written: it is closed\n"
+
+
 def test_a_reader_that_leaves_early_is_no_verdict():
     python = shlex.quote(sys.executable)
     command = f"{python} -m zygopin presets owl | true; echo ${{PIPESTATUS[0]}}"

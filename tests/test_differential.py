@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 import subprocess
 import sys
 from collections import Counter
@@ -36,6 +37,7 @@ from differ.tally import Tally
 
 from zygopin import Existence, check_grasp
 from zygopin.clearance import norm
+from zygopin.errors import FileError
 
 ROOT = Path(__file__).parent.parent
 SCRIPT = ROOT / "scripts" / "differential"
@@ -357,7 +359,8 @@ def test_what_is_undecided_is_neither_agreement_nor_failure():
         (["--replay", "bones:1"], "'bones:1' is not ROUTE:SEED"),
         (["--replay", "planner:x"], "'x' is not an integer from 0"),
         (["--workers", "9999"], "'9999' is more than"),
-        (["--json", "/no/such/folder/x"], "is no file in an existing folder"),
+        (["--json", "/dev/null/x"], "/dev/null/x: cannot be written: "),
+        (["--json", "/dev/full"], "it is not a regular file"),
         (["--case"], "expected one argument"),
     ],
 )
@@ -367,6 +370,30 @@ def test_bad_words_are_told_in_one_line(words, told, said):
     assert told in errors
     assert errors.count("\n") == 1
     assert errors.startswith("differential: ")
+
+
+def test_a_file_that_cannot_be_written_in_the_end_is_no_disagreement(
+    monkeypatch, said, script, tmp_path
+):
+    def full(path, _):
+        raise FileError(path, "cannot be written: No space", "make room")
+
+    monkeypatch.setattr(script, "write_text", full)
+    words = ("--only", "clearance-ends", "--cases", "1", "--json", tmp_path / "x")
+    status, out, errors = said(*words)
+    assert (status, "all agree" in out) == (2, True)
+    assert errors.startswith("differential: ")
+    assert errors.count("\n") == 1
+
+
+def test_a_reader_of_the_list_may_leave_early():
+    words = [shlex.quote(sys.executable), shlex.quote(str(SCRIPT)), "--list"]
+    command = f"{' '.join(words)} | true; echo ${{PIPESTATUS[0]}}"
+    ended = subprocess.run(
+        ["bash", "-c", command], capture_output=True, text=True, check=False
+    )
+    assert ended.stderr == ""
+    assert ended.stdout in ("0\n", "141\n")
 
 
 def test_an_interrupted_run_prints_the_table_so_far(monkeypatch, said):

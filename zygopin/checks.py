@@ -96,6 +96,34 @@ def integer(name: str, value: object, low: int, high: int) -> int:
     return int(result)
 
 
+def array_of(
+    name: str, value: ArrayLike, kinds: str, allowed: str, remedy: str
+) -> NDArray[Any]:
+    """An array of certain kinds of entries.
+
+    Args:
+        name: Name of the parameter, for the message.
+        value: What was given.
+        kinds: NumPy's letters of the kinds.
+        allowed: What is allowed, in words.
+        remedy: What to do otherwise, in words.
+
+    Returns:
+        The array: what was given, where it is one.
+
+    Raises:
+        ParameterError: It is none, or of another kind.
+    """
+    try:
+        given = np.asarray(value)
+    except (TypeError, ValueError, OverflowError, RuntimeError) as error:
+        # ValueError: rows differ in length. RuntimeError: PyTorch's, of gradients.
+        raise ParameterError(name, value, allowed, remedy) from error
+    if given.dtype.kind not in kinds:
+        raise ParameterError(name, value, allowed, remedy)
+    return given
+
+
 def array(name: str, value: ArrayLike, *, last: int | None = None) -> NDArray[Any]:
     """A finite float array, copied.
 
@@ -110,13 +138,8 @@ def array(name: str, value: ArrayLike, *, last: int | None = None) -> NDArray[An
     Raises:
         ParameterError: Not numbers, not finite, or of the wrong shape.
     """
-    allowed, remedy = "an array of numbers", "give numbers, in a sequence or an array"
-    try:
-        given = np.asarray(value)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise ParameterError(name, value, allowed, remedy) from error
-    if given.dtype.kind not in REAL:  # text, truth values, dates, complex numbers
-        raise ParameterError(name, value, allowed, remedy)
+    what, remedy = "an array of numbers", "give numbers, in a sequence or an array"
+    given = array_of(name, value, REAL, what, remedy)
     with np.errstate(over="ignore"):  # what is too long for a double becomes infinite
         result = np.array(given, dtype=float)
     if last is not None and (result.ndim == 0 or result.shape[-1] != last):

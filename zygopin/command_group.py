@@ -34,6 +34,9 @@ class OneLineErrors(click.Group):
         Returns:
             Never: raises SystemExit with the status.
         """
+        if sys.stdout is None:  # closed by who started this
+            _complain("the output cannot be written: it is closed")
+            raise SystemExit(2)
         kwargs["standalone_mode"] = False
         # All that is left at exit goes with the process: no search for cycles in it.
         atexit.register(gc.freeze)

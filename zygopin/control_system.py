@@ -179,14 +179,8 @@ def words(levels: Levels, depth: int, indices: ArrayLike) -> NDArray[np.float64]
     """
     levels, depth = as_levels(levels), as_depth(depth)
     count = len(levels) ** depth
-    try:
-        index = np.asarray(indices)
-    except ValueError as error:  # of rows that differ in length
-        remedy = "give integers"
-        raise ParameterError("indices", indices, "an array", remedy) from error
-    if index.dtype.kind not in "iu":
-        remedy = "give integers"
-        raise ParameterError("indices", indices, "an array of integers", remedy)
+    what, remedy = "an array of integers", "give integers"
+    index = checks.array_of("indices", indices, "iu", what, remedy)
     good, remedy = (index >= 0) & (index < count), "count points from 0"
     checks.require("indices", index, good, f"in [0, {count - 1}]", remedy)
     places = [len(levels) ** (depth - j) for j in range(1, depth + 1)]
@@ -206,10 +200,10 @@ def as_levels(levels: Levels) -> NDArray[np.float64]:
     Raises:
         ParameterError: Fewer than two equal levels, or a level outside [0, 1].
     """
-    if np.ndim(levels) == 0:
+    values = checks.array("levels", levels)
+    if values.ndim == 0:
         count = checks.integer("number of levels", levels, 2, 2**24)
         return frozen(np.linspace(0, 1, count))
-    values = checks.array("levels", levels)
     if values.ndim != 1 or not values.size:
         remedy = "give a sequence of levels, or their number"
         raise ParameterError("levels.shape", values.shape, "(n,) with n ≥ 1", remedy)
@@ -238,12 +232,8 @@ def as_tolerance(tolerance: float) -> float:
 def as_points(name: str, points: ArrayLike) -> NDArray[np.complex128]:
     """Finite complex numbers as an array, shape (…)."""
     remedy = "give x + iz as a complex number"
-    try:
-        given = np.asarray(points)
-    except ValueError as error:  # of rows that differ in length
-        raise ParameterError(name, points, "complex numbers", remedy) from error
-    if given.dtype.kind not in f"{checks.REAL}c":
-        raise ParameterError(name, points, "complex numbers", remedy)
+    kinds = f"{checks.REAL}c"
+    given = checks.array_of(name, points, kinds, "complex numbers", remedy)
     values = given.astype(np.complex128)
     checks.require(name, values, np.isfinite(values), "finite", "give finite x + iz")
     near = np.abs(values.real) + np.abs(values.imag) <= checks.LARGEST

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -124,7 +123,8 @@ def as_cloud(name: str, points: ArrayLike) -> NDArray[np.float64]:
     Raises:
         ParameterError: No points, not finite, or of another shape.
     """
-    values = _as_array(name, points)
+    what, remedy = "an array of numbers", "give a row for each point"
+    values = checks.array_of(name, points, f"{checks.REAL}c", what, remedy)
     if values.dtype.kind == "c":
         points = np.stack([values.real, values.imag], axis=-1)
     cloud = checks.array(name, points)
@@ -133,15 +133,6 @@ def as_cloud(name: str, points: ArrayLike) -> NDArray[np.float64]:
         remedy = "give complex numbers in one row, or a row for each point"
         raise ParameterError(f"{name}.shape", cloud.shape, allowed, remedy)
     return cloud
-
-
-def _as_array(name: str, points: ArrayLike) -> NDArray[Any]:
-    """Points as an array, not yet checked."""
-    try:
-        return np.asarray(points)
-    except ValueError as error:  # of rows that differ in length
-        remedy = "give a row for each point"
-        raise ParameterError(name, points, "an array", remedy) from error
 
 
 def _first_of_each(cloud: NDArray[np.float64]) -> NDArray[np.intp]:

@@ -45,6 +45,29 @@ class _Loader(yaml.SafeLoader):
             raise yaml.composer.ComposerError(None, None, problem, node.start_mark)
         return node
 
+    def construct_mapping(self, node: Any, deep: bool = False) -> Any:  # noqa: ANN401
+        """Refuse a key that is there twice: one of its values would be lost.
+
+        Args:
+            node: The mapping's node.
+            deep: Whether what it holds is made at once.
+
+        Returns:
+            The mapping.
+
+        Raises:
+            ConstructorError: A key is there twice.
+        """
+        seen = set()
+        for key, _ in node.value:
+            if not isinstance(key, yaml.ScalarNode):
+                continue
+            if key.value in seen:
+                problem, mark = f"{key.value!r} is there twice", key.start_mark
+                raise yaml.constructor.ConstructorError(None, None, problem, mark)
+            seen.add(key.value)
+        return super().construct_mapping(node, deep)
+
 
 def parsed(text: str) -> Any:  # noqa: ANN401
     """What a YAML text holds.
@@ -56,12 +79,15 @@ def parsed(text: str) -> Any:  # noqa: ANN401
         Numbers, texts, dates, lists and mappings.
 
     Raises:
-        ValueError: It is not YAML, is too long, or has a tag or an alias that is
-            refused.
+        ValueError: It is not YAML, is too long, names a key twice, or has a tag or an
+            alias that is refused.
     """
     if len(text) > MOST:
         raise ValueError(f"{len(text)} characters, where at most {MOST} are read")
     try:
         return yaml.load(text, _Loader)  # noqa: S506 a safe loader
-    except (yaml.YAMLError, RecursionError) as error:
-        raise ValueError(str(error)) from error
+    except RecursionError as error:
+        raise ValueError("lists or mappings are nested too deep") from error
+    except (yaml.YAMLError, ValueError) as error:
+        # Without Python's advice on a number of thousands of digits.
+        raise ValueError(str(error).partition("; use sys.")[0]) from error
