@@ -81,6 +81,30 @@ def test_a_damaged_atlas_says_where(tmp_path, name, values, words):
         load_atlas(damaged)
 
 
+@pytest.mark.parametrize(
+    ("name", "wrong", "words"),
+    [
+        ("grasping", 99, "grasping.* = 99 is not an answer"),
+        ("stable", -3, "stable.* = -3 is not an answer"),
+        ("toes", 99, "toes.* = 99 is not from 0 to 2"),
+        ("controls", 1.5, "controls.* = 1.5 is not from 0 to 1"),
+        ("wrap", -1.0, "wrap.* = -1.0 is not from 0 to 6.28319"),
+    ],
+)
+def test_what_no_atlas_holds_is_named(tmp_path, name, wrong, words):
+    with np.load(save_atlas(made_atlas(), tmp_path / "whole.npz")) as archive:
+        arrays = dict(archive)
+    arrays[name].flat[1] = wrong
+    damaged = write_archive(tmp_path / "damaged.npz", arrays)
+    with pytest.raises(FileError, match=f"is no atlas: {words}"):
+        load_atlas(damaged)
+    for kind in (str, complex):
+        other = {**arrays, name: arrays[name].astype(kind)}
+        damaged = write_archive(tmp_path / "other.npz", other)
+        with pytest.raises(FileError, match=f"is no atlas: {name} holds "):
+            load_atlas(damaged)
+
+
 def test_a_file_that_cannot_be_written_leaves_nothing(tmp_path):
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(FileError):

@@ -25,3 +25,32 @@ def test_a_worker_leaves_when_its_parent_is_killed(tmp_path):
     done = subprocess.run(command, stdout=subprocess.PIPE, timeout=60, check=False)
     assert done.returncode == -9
     assert done.stdout == b"True\n"
+
+
+BROKEN_OFF = """
+import time
+from contextlib import suppress
+from zygopin.worker_process import mapping, worker_pool
+if __name__ == "__main__":
+    for _ in range(6):
+        with suppress(KeyboardInterrupt), mapping(2) as apply:
+            for _ in apply(time.sleep, [0.01] * 200):
+                raise KeyboardInterrupt
+    # Before the pool has started what it will wait for.
+    with suppress(KeyboardInterrupt), worker_pool(2) as pool:
+        pool._executor_manager_thread = __import__("threading").Thread()
+        raise KeyboardInterrupt
+"""
+
+
+def test_work_that_is_broken_off_ends_without_a_word(tmp_path):
+    script = tmp_path / "broken_off.py"
+    script.write_text(BROKEN_OFF)
+    done = subprocess.run(
+        [sys.executable, str(script)],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -72,6 +73,11 @@ def load_atlas(path: Path | str) -> Atlas:
         FileError: The file cannot be read, or holds no atlas.
     """
     arrays = read_archive(path, (*UNITS, "document"), "atlas")
+    for name in UNITS:
+        kinds_of = "iu" if name in ("toes", *VERDICTS) else "f"
+        if arrays[name].dtype.kind not in kinds_of:
+            problem = f"is no atlas: {name} holds {arrays[name].dtype}"
+            raise FileError(path, problem, _REMEDY)
     try:
         return _atlas(arrays)
     except (ZygopinError, ValueError, KeyError, TypeError, RecursionError) as error:
@@ -84,6 +90,16 @@ def _atlas(arrays: dict[str, np.ndarray[Any, Any]]) -> Atlas:
     grid = BranchGrid(*(arrays.pop(name) for name in _LINES))
     last = {"toes": (2,), "wrap": (2,)}
     last |= dict.fromkeys(("controls", "stable_controls"), (foot.phalanx_count,))
+    highest = {"toes": len(foot.fingers), "wrap": math.tau}
     for name, values in arrays.items():
         checks.shaped(name, values, (*grid.shape, *last.get(name, ())))
+        if name in VERDICTS:
+            good, allowed = np.isin(values, list(Answer)), "an answer"
+        else:
+            most = highest.get(name, 1)
+            good = (values >= 0) & (values <= most)
+            if values.dtype.kind == "f":
+                good |= np.isnan(values)  # where there is no pose
+            allowed = f"from 0 to {most:g}"
+        checks.require(name, values, good, allowed, "save the atlas again")
     return Atlas(foot, grid, **arrays)

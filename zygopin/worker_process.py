@@ -5,11 +5,15 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import threading
 from collections.abc import Callable, Iterator
-from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
-from contextlib import contextmanager
+from concurrent.futures import (
+    BrokenExecutor,
+    InvalidStateError,
+    ProcessPoolExecutor,
+)
+from contextlib import contextmanager, suppress
 from multiprocessing.context import SpawnContext, SpawnProcess
-from threading import Thread
 from typing import Any
 
 from zygopin import checks
@@ -52,13 +56,37 @@ def worker_pool(workers: int) -> Iterator[ProcessPoolExecutor]:
         What takes the work.
     """
     made = _Workers()
-    with ProcessPoolExecutor(workers, made, initializer=leave_with_parent) as pool:
-        try:
-            yield pool
-        except BaseException:
+    pool = ProcessPoolExecutor(workers, made, initializer=leave_with_parent)
+    try:
+        yield pool
+    except BaseException:
+        with _hushed():
             for worker in made.started:
                 worker.terminate()  # the pool would wait for what it has begun
-            raise
+            pool.shutdown()
+        raise
+    pool.shutdown()
+
+
+@contextmanager
+def _hushed() -> Iterator[None]:
+    """Without a pool's complaints of having been broken off.
+
+    Its thread cannot be joined before it has been started, and cannot tell a task that
+    is cancelled already that its worker has gone.
+    """
+    before = threading.excepthook
+
+    def hook(args: threading.ExceptHookArgs) -> None:
+        if not issubclass(args.exc_type, InvalidStateError):
+            before(args)
+
+    threading.excepthook = hook
+    try:
+        with suppress(RuntimeError):
+            yield
+    finally:
+        threading.excepthook = before
 
 
 class _Worker(SpawnProcess):
@@ -96,7 +124,7 @@ def leave_with_parent() -> None:
     A worker that waits for work would otherwise wait for ever: it holds both ends of
     the pipe that it waits on.
     """
-    Thread(target=_leave, daemon=True).start()
+    threading.Thread(target=_leave, daemon=True).start()
 
 
 def _leave() -> None:
