@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from zygopin import Branch, check_grasp
-from zygopin.contact_products import least_product
+from zygopin.contact_products import least_products
 from zygopin.kinematics import forward_kinematics
 from zygopin.witnesses import palmar
 
@@ -51,7 +51,7 @@ def planted(foot, seed, axis=(0.0, 1.0, 0.0), count=20_000):
     good = (radius > LEAST * foot.size) & (radius < foot.size) & outside
     branch = Branch(radius[good], centre[good], axis)
     report = check_grasp(foot, controls[good], branch)
-    product = least_product(foot, report.normal, report.tangent & palmar(report))
+    (product,) = least_products(foot, report.tangent & palmar(report), report.normal)
     grasping = report.feasible & (np.nan_to_num(product, nan=1.0) <= 0)
     every = Planted(
         height[good], radius[good], controls[good], report.feasible, grasping

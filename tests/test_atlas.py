@@ -17,7 +17,7 @@ from zygopin import (
 )
 from zygopin.atlas import ROWS, VERDICTS
 from zygopin.atlas_parts import share_poses
-from zygopin.contact_products import least_product
+from zygopin.contact_products import least_products
 from zygopin.witnesses import opposing, palmar, touched
 
 PARROT = Foot.preset("parrot")
@@ -58,7 +58,7 @@ def shown(report):
     """What poses show, each verdict by itself: masks of shape (n,)."""
     foot = report.foot
     met = opposing(foot, touched(foot, report.touching))
-    palms = least_product(foot, report.normal, report.tangent & palmar(report))
+    (palms,) = least_products(foot, report.tangent & palmar(report), report.normal)
     quarter = np.nan_to_num(palms, nan=1.0) <= 1e-9
     return {
         "touchable": met & report.feasible,

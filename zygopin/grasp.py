@@ -14,7 +14,7 @@ from zygopin import checks, kinds
 from zygopin.blocks import entries
 from zygopin.branch import Branch, check_base
 from zygopin.clearance import Clearance, Floats, least_skin_distance, norm
-from zygopin.contact_products import least_over, tangent_pairs
+from zygopin.contact_products import least_products
 from zygopin.directions import FEET
 from zygopin.engine import Engine, EngineName, make_engine
 from zygopin.errors import ParameterError
@@ -231,9 +231,9 @@ def _report(
     bones = engine.bones(controls)
     near, apart = engine.distances(bones, foot.radii, branch, finger_pairs(foot))
     contacts = classify(near, tolerance)
-    pairs = tangent_pairs(foot, contacts.tangent)
-    section = least_over(pairs, near.normal)
-    along = least_over(pairs, base_to_tip(bones))
+    section, along = least_products(
+        foot, contacts.tangent, near.normal, base_to_tip(bones)
+    )
     decisive = section if criteria.reading == "section" else along
     batch = near.distance.shape[:-1]
     free = ~contacts.penetrating.any(axis=-1) & (apart >= least_gap(foot, tolerance))

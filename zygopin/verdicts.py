@@ -16,7 +16,7 @@ from zygopin.blocks import Part, as_threads, entries, in_blocks
 from zygopin.bones import posed_bones
 from zygopin.branch import Branch
 from zygopin.clearance import branch_clearance
-from zygopin.contact_products import least_product
+from zygopin.contact_products import least_products
 from zygopin.directions import Floats, pitch_matrix, product, running_sum
 from zygopin.foot import Foot
 from zygopin.grasp import (
@@ -164,7 +164,7 @@ class _Cases:
         vectors = near.normal
         if self.criteria.reading == "base_to_tip":
             vectors = base_to_tip(bones)
-        least = least_product(foot, vectors, contacts.tangent)
+        (least,) = least_products(foot, contacts.tangent, vectors)
         entered = contacts.penetrating.any(axis=-1)
         free = ~entered & fingers_apart(foot, bones, tolerance)
         return np.array([np.isfinite(least), least <= PARAMETER_SLACK, free])

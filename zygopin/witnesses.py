@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from zygopin.branch_grid import BranchGrid
 from zygopin.clearance import dot
-from zygopin.contact_products import least_product
+from zygopin.contact_products import least_products
 from zygopin.engine import Engine
 from zygopin.foot import Foot
 from zygopin.grasp import (
@@ -120,7 +120,8 @@ class Witnesses:
         opposed = opposing(self.foot, touched(self.foot, report.touching))
         merit = np.where(opposed, MERITS["touching"], 0)
         merit = np.where(report.stable, MERITS["feasible"], merit)
-        held = least_product(self.foot, report.normal, report.tangent & palmar(report))
+        tangent = report.tangent & palmar(report)
+        (held,) = least_products(self.foot, tangent, report.normal)
         grasps = np.nan_to_num(held, nan=np.inf) <= PARAMETER_SLACK
         merit = np.where(report.grasping & grasps, MERITS["grasping"], merit)
         return np.where(report.feasible & (merit > 0), merit + toes, 0)

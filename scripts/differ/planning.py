@@ -20,7 +20,7 @@ from zygopin import (
     plan_perch,
     search_perch,
 )
-from zygopin.contact_products import least_product
+from zygopin.contact_products import least_products
 from zygopin.grasp import PARAMETER_SLACK
 from zygopin.witnesses import palmar
 
@@ -52,7 +52,7 @@ def _branch(drawn: Draw) -> tuple[Branch, bool]:
 def with_palms(report: GraspReport) -> np.ndarray:
     """Grasps with the toes' palms, which is what proofs are about, shape (…)."""
     tangent = report.tangent & palmar(report)
-    product = least_product(report.foot, report.normal, tangent)
+    (product,) = least_products(report.foot, tangent, report.normal)
     return np.asarray(np.nan_to_num(product, nan=1.0) <= PARAMETER_SLACK)
 
 
