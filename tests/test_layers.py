@@ -78,6 +78,7 @@ LAYERS = (
     "solid_clearance",
     "contact_products",
     "grasp",
+    "cross_section",
     "verdicts",
     "placement",
     "tangent_lines",

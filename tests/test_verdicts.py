@@ -256,7 +256,9 @@ def test_rounding_is_within_the_bound():
         controls = rng.random((200, foot.phalanx_count))
         cases = verdicts._Cases(foot, controls, branch, (200,), Criteria())
         sieve, every = verdicts._Sieve(cases), slice(0, 200)
-        found = np.sqrt(sieve._squares(controls, sieve.section(every)).T, dtype=float)
+        found = np.sqrt(
+            sieve._squares(controls, sieve.limits(every).section).T, dtype=float
+        )
         exact = check_grasp(foot, controls, branch).clearance
         error = found - (exact + branch.radius + foot.radii)
         bound = sieve.slack - Criteria().metres(foot)

@@ -17,6 +17,7 @@ from zygopin.bones import posed_bones
 from zygopin.branch import Branch
 from zygopin.clearance import branch_clearance
 from zygopin.contact_products import least_products
+from zygopin.cross_section import CrossSection
 from zygopin.directions import Floats, pitch_matrix, product, running_sum
 from zygopin.foot import Foot
 from zygopin.grasp import (
@@ -28,7 +29,7 @@ from zygopin.grasp import (
     classify,
     fingers_apart,
 )
-from zygopin.kinematics import Controls, as_azimuths, read_controls
+from zygopin.kinematics import Controls, read_controls
 
 ROUNDING = 16
 """Rounding of a distance to the axis, in units of the last place of the lengths it is
@@ -175,54 +176,18 @@ class _Cases:
         return fingers_apart(self.foot, bones, self.criteria.metres(self.foot))
 
 
-class _Section(NamedTuple):
-    """Branches seen along their axes, for toes that stand upright: n of them, or 1.
+class _Limits(NamedTuple):
+    """Branches for the sieve: n of them, or 1.
 
     Attributes:
-        across: Share of a toe's horizontal that goes across, shape (P, n).
-        rise: Share of it that goes up, shape (P, n).
-        level: Share of the vertical that goes up, shape (n,).
-        centre: The axes, across and up [m], shape (2, 1, n).
+        section: The planes across them.
         inside: Squared distance below which a bone is too near, shape (P, n) [m²].
         outside: Squared distance above which it touches nothing, shape (P, n) [m²].
     """
 
-    across: Floats
-    rise: Floats
-    level: Floats
-    centre: Floats
+    section: CrossSection
     inside: Floats
     outside: Floats
-
-    @classmethod
-    def of(cls, foot: Foot, branch: Branch, slack: float) -> _Section:
-        """The section of a branch, or of a batch of shape (n,).
-
-        Args:
-            foot: The foot.
-            branch: The branch, or n of them.
-            slack: Distance to the skin up to which a bone is not clear of it [m].
-        """
-        x, y, z = np.atleast_2d(branch.axis).T
-        level = np.hypot(x, y)
-        upright = level == 0
-        length = np.where(upright, 1.0, level)
-        # Across the axis and level; then across both.
-        first = np.array([np.where(upright, 1.0, -y / length), x / length])
-        second = np.array([-z * first[1], z * first[0]])
-        place = np.atleast_2d(branch.centre).T
-        centre = (np.array([first, second]) * place[:2]).sum(axis=1, keepdims=True)
-        centre[1] = centre[1] + level * place[2]
-        reach = np.atleast_1d(np.asarray(branch.radius)) + foot.radii[:, None]
-        inside, outside = np.maximum(reach - slack, 0) ** 2, (reach + slack) ** 2
-        azimuth = as_azimuths(foot, None)[foot.finger_of_phalanx, None]
-        across, rise = (
-            np.cos(azimuth) * way[0] + np.sin(azimuth) * way[1]
-            for way in (first, second)
-        )
-        wide = np.broadcast_shapes(across.shape, outside.shape)
-        across, rise = np.broadcast_to(across, wide), np.broadcast_to(rise, wide)
-        return cls(across, rise, level, centre, inside, outside)
 
 
 class _Sieve:
@@ -242,13 +207,19 @@ class _Sieve:
         self.turns, self.start, self.steps = (
             x.astype(self.kind) for x in (turns, start, steps * foot.lengths)
         )
-        self.only = None if cases.branch.batch_shape else self.section(slice(0, 1))
+        self.only = None if cases.branch.batch_shape else self.limits(slice(0, 1))
 
-    def section(self, part: slice) -> _Section:
-        """The section of some cases' branches."""
-        branch = self.cases.branch.entries(self.cases.batch, part)
-        section = _Section.of(self.cases.foot, branch, self.slack)
-        return _Section(*(field.astype(self.kind) for field in section))
+    def limits(self, part: slice) -> _Limits:
+        """The limits of some cases' branches."""
+        foot, branch = self.cases.foot, self.cases.branch
+        branch = branch.entries(self.cases.batch, part)
+        section = (x.astype(self.kind) for x in CrossSection.of(foot, branch))
+        reach = np.atleast_1d(np.asarray(branch.radius)) + foot.radii[:, None]
+        inside = np.maximum(reach - self.slack, 0) ** 2
+        outside = (reach + self.slack) ** 2
+        return _Limits(
+            CrossSection(*section), inside.astype(self.kind), outside.astype(self.kind)
+        )
 
     def met(self, part: slice) -> tuple[Booleans, Booleans]:
         """Whether some bone may touch the infinite branch, and whether one enters it.
@@ -259,25 +230,20 @@ class _Sieve:
         Returns:
             Two masks, shape (n,): the first leaves nothing out, the second is certain.
         """
-        section = self.only or self.section(part)
-        squares = self._squares(self.cases.poses(part), section)
-        entered = squares < section.inside
-        near = squares <= section.outside
+        limits = self.only or self.limits(part)
+        squares = self._squares(self.cases.poses(part), limits.section)
+        entered = squares < limits.inside
+        near = squares <= limits.outside
         near &= ~entered
         return np.logical_or.reduce(near), np.logical_or.reduce(entered)
 
-    def _squares(self, poses: Floats, section: _Section) -> Floats:
+    def _squares(self, poses: Floats, section: CrossSection) -> Floats:
         """Squared distances of the bones from the axes [m²], shape (P, n)."""
         pitch = product(self.turns, poses.T.astype(self.kind))
         pitch += self.start
         along, down = (product(self.steps, turn(pitch)) for turn in (np.cos, np.sin))
         shape = (2, *pitch.shape)
-        along, down = along.reshape(shape), down.reshape(shape)
-        wide = np.broadcast_shapes(shape, section.rise.shape)
-        bones = np.empty((2, *wide), self.kind)
-        np.multiply(along, section.across, out=bones[0])
-        np.multiply(along, section.rise, out=bones[1])
-        bones[1] -= down * section.level
+        bones = section.seen(along.reshape(shape), down.reshape(shape))
         end, step = bones[:, 0], bones[:, 1]
         end -= section.centre
         # How far back from its end a bone is nearest to the axis, in bones.
