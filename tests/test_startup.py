@@ -19,6 +19,7 @@ HEAVY = (
     "matplotlib",
     "meshcat",
     "mujoco",
+    "numba",
     "numpy",
     "pinocchio",
     "rich",

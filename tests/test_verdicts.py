@@ -14,11 +14,13 @@ from strategies import controls_for, feet, reals
 
 from zygopin import verdicts
 from zygopin.branch import Branch, branch_axis
+from zygopin.cases import Cases
 from zygopin.clearance import branch_clearance
 from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.foot import Finger, Foot
 from zygopin.grasp import Criteria, check_grasp
 from zygopin.perch import plan_perch
+from zygopin.sieve import Sieve
 from zygopin.verdicts import grasp_verdicts
 
 PARROT = Foot.preset("parrot")
@@ -33,12 +35,15 @@ def sieve_always(monkeypatch):
 
 
 def assert_full_check(foot, controls, branch, criteria=None, threads=None):
-    """The verdicts are those of `check_grasp`; they are returned."""
-    found = grasp_verdicts(foot, controls, branch, criteria=criteria, threads=threads)
+    """The verdicts of both engines are those of `check_grasp`; they are returned."""
     report = check_grasp(foot, controls, branch, criteria=criteria)
-    for name in VERDICTS:
-        assert getattr(found, name).shape == getattr(report, name).shape
-        assert (getattr(found, name) == getattr(report, name)).all(), name
+    for engine in verdicts.BATCHED:
+        found = grasp_verdicts(
+            foot, controls, branch, engine=engine, criteria=criteria, threads=threads
+        )
+        for name in VERDICTS:
+            assert getattr(found, name).shape == getattr(report, name).shape
+            assert (getattr(found, name) == getattr(report, name)).all(), (engine, name)
     return found
 
 
@@ -191,7 +196,7 @@ def test_few_cases_are_measured_at_once(monkeypatch):
     plan = plan_perch(PARROT, PERCH)
     controls = np.stack([plan.controls, np.zeros(14), np.full(14, 0.5)])
     monkeypatch.setattr(verdicts, "FEW", 3)
-    monkeypatch.setattr(verdicts, "_Sieve", None)
+    monkeypatch.setattr(verdicts, "Sieve", None)
     assert assert_full_check(PARROT, controls, PERCH).grasping.tolist() == [
         True,
         False,
@@ -233,7 +238,7 @@ def test_only_what_meets_the_branch_is_measured(monkeypatch):
         measured.append(len(bones))
         return branch_clearance(bones, radii, branch)
 
-    monkeypatch.setattr(verdicts, "branch_clearance", recorded)
+    monkeypatch.setattr("zygopin.cases.branch_clearance", recorded)
     controls = np.random.default_rng(3).random((5000, 14))
     grasp_verdicts(PARROT, controls, PERCH)
     assert sum(measured) <= 50
@@ -254,8 +259,8 @@ def test_rounding_is_within_the_bound():
         centre = foot.size * across * rng.uniform(0.5, 2) / np.linalg.norm(across)
         branch = Branch(0.4 * foot.size, centre, axis)
         controls = rng.random((200, foot.phalanx_count))
-        cases = verdicts._Cases(foot, controls, branch, (200,), Criteria())
-        sieve, every = verdicts._Sieve(cases), slice(0, 200)
+        some = Cases(foot, controls, branch, (200,), Criteria())
+        sieve, every = Sieve(some), slice(0, 200)
         found = np.sqrt(
             sieve._squares(controls, sieve.limits(every).section).T, dtype=float
         )

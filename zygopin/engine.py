@@ -1,10 +1,10 @@
-"""The two routes from controls to distances, which share nothing."""
+"""Routes from controls to distances: the exact engine and FCL, which share nothing."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from typing import Literal
 
 import numpy as np
@@ -17,10 +17,15 @@ from zygopin.clearance import Clearance, Floats
 from zygopin.foot import Foot
 
 EngineName = Literal["exact", "fcl"]
+FasterName = Literal["exact", "fcl", "fast"]
 
 Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
 
 ENGINES: tuple[EngineName, ...] = ("exact", "fcl")
+"""The two routes."""
+
+MADE: tuple[FasterName, ...] = (*ENGINES, "fast")
+"""Engines that can be made: the routes, and the exact one in compiled loops."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +33,7 @@ class Engine:
     """One route from controls to distances.
 
     Attributes:
-        name: `exact` or `fcl`.
+        name: `exact`, `fcl` or `fast`.
         foot: The foot it is for.
         bones: Controls (…, P) that were checked to bones (…, P, 2, 3).
         distances: Bones, radii, branch and pairs of phalanges to a `Clearance`, and
@@ -44,11 +49,12 @@ class Engine:
 def make_engine(name: str, foot: Foot) -> Engine:
     """An engine for a foot, to be used for any number of checks.
 
-    The two share nothing: `exact` is closed form throughout, `fcl` goes through the
-    URDF, Pinocchio and FCL.
+    `exact` and `fcl` share nothing: the one is closed form throughout, the other goes
+    through the URDF, Pinocchio and FCL. `fast` is `exact` in loops compiled by Numba,
+    the extra `fast`; it is `exact` itself where Numba is not there.
 
     Args:
-        name: `exact` or `fcl`.
+        name: `exact`, `fcl` or `fast`.
         foot: The foot.
 
     Returns:
@@ -58,14 +64,12 @@ def make_engine(name: str, foot: Foot) -> Engine:
         UnknownNameError: There is no engine of that name.
     """
     kinds.instance("foot", foot, Foot)
-    kinds.one_of("engine", name, ENGINES)
-    if name == "exact":
-        return Engine(
-            name,
-            foot,
-            partial(posed_bones, foot),
-            clearance.distances,
-        )
+    kinds.one_of("engine", name, MADE)
+    if name != "fcl":
+        distances = clearance.distances
+        if name == "fast" and has_compiler():
+            from zygopin.fast_clearance import distances
+        return Engine(name, foot, partial(posed_bones, foot), distances)
     from zygopin import collision  # FCL and Pinocchio take a quarter of a second
     from zygopin.model import FootModel
 
@@ -75,3 +79,13 @@ def make_engine(name: str, foot: Foot) -> Engine:
         FootModel(foot).forward,
         collision.distances,
     )
+
+
+@cache
+def has_compiler() -> bool:
+    """Whether Numba is there and fits NumPy; it takes half a second to load."""
+    try:
+        import numba  # noqa: F401
+    except ImportError:
+        return False
+    return True

@@ -16,7 +16,7 @@ from zygopin.branch import Branch, check_base
 from zygopin.clearance import Clearance, Floats, least_skin_distance, norm
 from zygopin.contact_products import least_products
 from zygopin.directions import FEET
-from zygopin.engine import Engine, EngineName, make_engine
+from zygopin.engine import Engine, FasterName, make_engine
 from zygopin.errors import ParameterError
 from zygopin.foot import Foot
 from zygopin.kinematics import Controls, read_controls
@@ -158,7 +158,7 @@ def check_grasp(
     controls: Controls,
     branch: Branch,
     *,
-    engine: EngineName | Engine = "exact",
+    engine: FasterName | Engine = "exact",
     criteria: Criteria | None = None,
 ) -> GraspReport:
     """Verdicts for given controls on a branch: MODEL.md, sections 4 and 5.
@@ -167,7 +167,8 @@ def check_grasp(
         foot: The foot.
         controls: Controls in [0, 1], shape (…, P), or {finger name: sequence}.
         branch: A branch, or a batch that broadcasts against the controls'.
-        engine: `exact`, `fcl`, or an engine made for this foot, for repeated use.
+        engine: `exact`, `fcl`, `fast`, or one of these that `make_engine` made for
+            this foot, for repeated use.
         criteria: What counts as contact and as a grasp; None: the defaults.
 
     Returns:

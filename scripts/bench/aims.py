@@ -73,7 +73,7 @@ def _absolute(rows: Sequence[Row]) -> list[Aim]:
             text = f"{part}: millions per second, {own.threads} threads"
             found.append(_at_least(text, 2.0, rate))
     for name, most in (
-        ("zygopin, check_grasp", 100.0),
+        ("zygopin, check_grasp, fast", 100.0),
         ("zygopin, check_grasp by FCL", 300.0),
     ):
         row = _row(rows, SINGLE, name)

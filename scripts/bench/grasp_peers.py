@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib import import_module
+from typing import Literal
 
 from bench.checking import Answer, Checking, of_verdicts
 from bench.peer import Peer, cores
@@ -20,13 +21,18 @@ Checker = Peer[Checking, Answer]
 POSED = "FK by Pinocchio, 14 distances, verdict"
 
 
-def verdicts(threads: int | None) -> Callable[[Checking], Check]:
-    """Zygopin's verdicts alone."""
-    return lambda job: (
-        lambda: of_verdicts(
-            grasp_verdicts(job.foot, job.controls, job.branch, threads=threads)
+def verdicts(
+    engine: Literal["exact", "fast"], threads: int | None
+) -> Callable[[Checking], Check]:
+    """Zygopin's verdicts alone, by an engine that takes many cases at once."""
+
+    def make(job: Checking) -> Check:
+        case = job.foot, job.controls, job.branch
+        return lambda: of_verdicts(
+            grasp_verdicts(*case, engine=engine, threads=threads)
         )
-    )
+
+    return make
 
 
 def report(engine: str) -> Callable[[Checking], Check]:
@@ -55,21 +61,48 @@ def other(module: str, name: str) -> Callable[[Checking], Check]:
     return lambda job: getattr(import_module(f"bench.{module}"), name)(job)
 
 
-OWN: tuple[Checker, ...] = (
+NUMBA = ("numba",)
+
+VERDICTS: tuple[Checker, ...] = (
     Checker(
-        "zygopin, verdicts alone",
-        "grasp_verdicts: FK, 14 clearances, fingers, all verdicts",
-        verdicts(None),
+        "zygopin, verdicts, fast",
+        "grasp_verdicts: FK, 14 clearances, fingers, all verdicts; engine fast",
+        verdicts("fast", None),
+        packages=NUMBA,
         threads=cores(),
     ),
     Checker(
-        "zygopin, verdicts alone, one thread",
+        "zygopin, verdicts, fast, one thread",
         "the same on one thread",
-        verdicts(1),
+        verdicts("fast", 1),
+        packages=NUMBA,
+    ),
+    Checker(
+        "zygopin, verdicts",
+        "the same by the engine exact, which needs NumPy alone",
+        verdicts("exact", None),
+        threads=cores(),
+    ),
+    Checker(
+        "zygopin, verdicts, one thread",
+        "the same on one thread",
+        verdicts("exact", 1),
+    ),
+)
+"""Zygopin's verdicts alone; the first is what all others are held against."""
+
+OWN: tuple[Checker, ...] = (
+    *VERDICTS,
+    Checker(
+        "zygopin, check_grasp, fast",
+        "the same with the evidence: points, normals, products; engine fast",
+        report("fast"),
+        packages=NUMBA,
+        share=1 / 4,
     ),
     Checker(
         "zygopin, check_grasp",
-        "the same with the evidence: points, normals, products",
+        "the same by the engine exact",
         report("exact"),
         share=1 / 4,
     ),
@@ -80,7 +113,7 @@ OWN: tuple[Checker, ...] = (
         share=1 / 100,
     ),
 )
-"""Zygopin's own; the first is what all others are held against."""
+"""Zygopin's own."""
 
 FCL = ("pin", "python-fcl")
 COAL = ("pin", "coal")

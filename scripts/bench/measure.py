@@ -128,7 +128,7 @@ def _limits(rows: Sequence[Row]) -> list[dict[str, Any]]:
         suites.TOUCHING: limits.of_check(foot),
     }
     names = {peer.name for peer in kinematics_peers.OWN}
-    names |= {peer.name for peer in grasp_peers.OWN[:2]}
+    names |= {peer.name for peer in grasp_peers.VERDICTS}
     rates = {threads: limits.measured_rates(threads) for threads in {1, cores()}}
     return [
         {

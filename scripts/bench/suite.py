@@ -71,7 +71,7 @@ class Suite(Generic[Job, Result]):
     Attributes:
         part: What the job is called.
         job: The job.
-        own: Zygopin's ways; the first is what others are held against.
+        own: Zygopin's ways; the first that can run is what others are held against.
         peers: The others.
         verify: Name, job, answer and tolerance to a remark; raises on a wrong answer.
     """
@@ -137,7 +137,7 @@ class Suite(Generic[Job, Result]):
             threads=peer.threads,
             configurations=count,
             microseconds=Spread.of(mine).scaled(1e6),
-            ratio=ratios(mine, single[self.own[0].name]),
+            ratio=ratios(mine, single[able[0].name]),
             ratio_alike=same,
             own=peer in self.own,
             packages=peer.packages,

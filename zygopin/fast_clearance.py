@@ -1,0 +1,86 @@
+"""The exact engine's distances by compiled loops: for few poses, and for many."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from zygopin import checks, clearance
+from zygopin.blocks import entries
+from zygopin.branch import Branch
+from zygopin.clearance import Clearance, Floats
+from zygopin.clearance_kernels import Side, least_gap, side_clearance
+from zygopin.errors import ParameterError
+
+Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
+
+
+def distances(
+    bones: Floats, radii: Floats, branch: Branch, pairs: Pairs
+) -> tuple[Clearance, Floats]:
+    """`clearance.distances`, to the last places.
+
+    Args:
+        bones: Bones [m], shape (…, P, 2, 3).
+        radii: Skin radii εₖ [m], shape (P,).
+        branch: The branch, or a batch of them that broadcasts against the bones'.
+        pairs: Indices of the first and of the second phalanges, shape (M,) each.
+
+    Returns:
+        The record, and signed distances [m] of the bones' own batch.
+
+    Raises:
+        ParameterError: Shapes do not fit, or a pair is none of the phalanges.
+    """
+    # The loops trust what they are given: copies are of one type, in C order.
+    bones, radii = np.array(bones, float), np.array(radii, float)
+    checks.shaped("bones", bones, (*bones.shape[:-3], None, 2, 3))
+    checks.shaped("radii", radii, bones.shape[-3:-2])
+    return _branch_clearance(bones, radii, branch), _least_gap(bones, radii, pairs)
+
+
+def _branch_clearance(bones: Floats, radii: Floats, branch: Branch) -> Clearance:
+    """Clearance between phalanges and branches."""
+    batch = checks.common_batch(
+        "bones and branch", bones.shape[:-3], branch.batch_shape
+    )
+    rows = np.empty((*branch.batch_shape, 8))
+    rows[..., :3], rows[..., 3:6] = branch.centre, branch.axis
+    rows[..., 6], rows[..., 7] = branch.radius, branch.half_length
+    shape = (math.prod(batch), len(radii))
+    side = Side(*(np.empty((*shape, *tail)) for tail in ((), (), (3,), (3,))))
+    left = np.zeros(shape[0], bool)
+    side_clearance(_flat(bones, batch, 3), radii, _flat(rows, batch, 1), side, left)
+    record = Clearance(*side, np.ones(shape, bool))
+    if left.any():
+        part = np.flatnonzero(left)
+        some = entries(bones, batch, part, 3), radii, branch.entries(batch, part)
+        exact = clearance.branch_clearance(*some)
+        for field in fields(Clearance):
+            getattr(record, field.name)[part] = getattr(exact, field.name)
+    shaped = (getattr(record, field.name) for field in fields(Clearance))
+    return Clearance(*(x.reshape(*batch, *x.shape[1:]) for x in shaped))
+
+
+def _least_gap(bones: Floats, radii: Floats, pairs: Pairs) -> Floats:
+    """Least distance between the skins of pairs of phalanges."""
+    poses = bones.reshape(-1, *bones.shape[-3:])
+    least = np.full(len(poses), np.inf)
+    if not least_gap(poses, radii, pairs, least):
+        found = [int(x) for x in np.concatenate(pairs) if not 0 <= x < len(radii)]
+        allowed = f"from 0 to {len(radii) - 1}"
+        raise ParameterError("pairs", found[0], allowed, "give indices of phalanges")
+    return least.reshape(bones.shape[:-3])
+
+
+def _flat(values: NDArray[Any], batch: tuple[int, ...], tail: int) -> NDArray[Any]:
+    """Values as a flat batch; as they are where there is only one."""
+    cut = values.ndim - tail
+    one = values.shape[cut:]
+    if math.prod(values.shape[:cut]) > 1 and values.shape[:cut] != batch:
+        values = np.broadcast_to(values, (*batch, *one))
+    return values.reshape(-1, *one)
