@@ -9,7 +9,7 @@ from zygopin.blocks import Part
 from zygopin.branch import Branch
 from zygopin.cases import Cases
 from zygopin.cross_section import CrossSection
-from zygopin.directions import Floats, directions
+from zygopin.directions import Floats
 from zygopin.foot import Foot
 from zygopin.grasp import PARAMETER_SLACK, Booleans, finger_pairs, least_gap
 from zygopin.kinematics import as_azimuths
@@ -19,8 +19,11 @@ from zygopin.verdict_kernels import (
     across,
     apart,
     ended,
+    half_pitches,
+    laid,
     least_products,
     met,
+    seen,
 )
 
 
@@ -30,10 +33,14 @@ class FastVerdicts:
     def __init__(self, cases: Cases) -> None:
         self.cases, foot = cases, cases.foot
         self.tolerance = cases.criteria.metres(foot)
-        self.azimuth = as_azimuths(foot, None)[foot.finger_of_phalanx]
+        azimuths = as_azimuths(foot, None)
+        self.azimuth = azimuths[foot.finger_of_phalanx]
         self.toes = _toes(foot, self.azimuth, self.tolerance)
+        turn = np.subtract.outer(azimuths, azimuths)
+        by_bones = cases.criteria.reading == "base_to_tip"
+        self.weights = np.cos(turn) if by_bones else np.ones_like(turn)
         one = not cases.branch.batch_shape
-        self.only = CrossSection.of(foot, cases.branch) if one else None
+        self.only = _section(foot, cases.branch) if one else None
 
     def settled(self, part: Part) -> tuple[Booleans, Booleans]:
         """Verdicts on some cases, and which are left to the exact engine.
@@ -46,25 +53,35 @@ class FastVerdicts:
             decide, shape (n,).
         """
         branch = self.cases.branches(part)
-        pointing = directions(self.cases.foot, self.cases.poses(part))
-        along, down = pointing * self.toes.lengths[:, None]
-        section = self.only or CrossSection.of(self.cases.foot, branch)
-        bones = section.seen(along, down)
-        shape = bones.shape[1:]
-        near = Near(np.empty(shape), np.empty(shape), np.empty(bones.shape))
-        across(bones, _wide(-section.centre[:, 0], bones[:, 0]), self.toes, near)
-        radius = _wide(branch.radius, bones[0, 0])
+        section = self.only or _section(self.cases.foot, branch)
+        along, down = self._bones(self.cases.poses(part))
+        shape = np.broadcast_shapes(along.shape, section.across.shape)
+        bones, normal = np.empty((2, *shape)), np.empty((2, *shape))
+        near = Near(np.empty(shape), np.empty(shape), normal)
+        seen(_wide(along, shape), _wide(down, shape), section, bones)
+        across(bones, section.centre[:, 0], self.toes, near)
+        radius = _wide(branch.radius, shape[1:])
         tangent, entered = np.empty(shape, bool), np.zeros(shape[1], bool)
         met(near, radius, self.toes, self.tolerance, tangent, entered)
         left = np.full(shape[1], branch.least_radius <= self.tolerance)
         if branch.length is not None:
             self._end(along, down, branch, near, left)
-        by_bones = self.cases.criteria.reading == "base_to_tip"
-        vectors = self._lines(pointing, shape) if by_bones else near.normal
+        if self.cases.criteria.reading == "base_to_tip":
+            normal[0], normal[1] = along, down
+            normal /= self.toes.lengths[:, None]
         least = np.full(shape[1], np.inf)
-        least_products(vectors, tangent, self.toes, least)
+        least_products(normal, tangent, self.weights, self.toes, least)
         free = self._free(along, down, ~entered)
         return np.array([np.isfinite(least), least <= PARAMETER_SLACK, free]), left
+
+    def _bones(self, poses: Floats) -> tuple[Floats, Floats]:
+        """Horizontal parts of the bones [m], and how far they go down, (P, n) each."""
+        shape = poses.shape[::-1]
+        half, along, down = np.empty(shape), np.empty(shape), np.empty(shape)
+        half_pitches(np.array(poses), self.toes, half)
+        np.tan(half, out=half)  # NumPy's works on several numbers at once
+        laid(half, self.toes, along, down)
+        return along, down
 
     def _end(
         self, along: Floats, down: Floats, branch: Branch, near: Near, left: Booleans
@@ -74,20 +91,10 @@ class FastVerdicts:
         azimuth = self.azimuth[:, None]
         axial = along * (np.cos(azimuth) * x + np.sin(azimuth) * y) - down * z
         start = -np.einsum("...i,...i->...", branch.centre, branch.axis)
-        axial, start = _wide(axial, near.t), _wide(start, left)
-        sizes = _wide(branch.radius, left), _wide(branch.half_length, left)
-        ended(axial, start, self.toes, near, (*sizes, self.tolerance), left)
-
-    def _lines(self, pointing: Floats, shape: tuple[int, ...]) -> Floats:
-        """Unit vectors from base to tip, shape (3, P, n)."""
-        lines = np.empty((3, *shape))
-        azimuth = self.azimuth[:, None]
-        lines[0], lines[1] = (
-            pointing[0] * np.cos(azimuth),
-            pointing[0] * np.sin(azimuth),
-        )
-        lines[2] = -pointing[1]
-        return lines
+        axial, start = _wide(axial, near.t.shape), _wide(start, left.shape)
+        radius = _wide(branch.radius, left.shape)
+        ends = radius, _wide(branch.half_length, left.shape), self.tolerance
+        ended(axial, start, self.toes, near, ends, left)
 
     def _free(self, along: Floats, down: Floats, clear: Booleans) -> Booleans:
         """Which cases that are clear of the branch are free of fingers as well."""
@@ -116,6 +123,8 @@ def _toes(foot: Foot, azimuth: Floats, tolerance: float) -> Toes:
     return Toes(
         first=foot.rank_of_phalanx == 1,
         finger=finger,
+        omega=foot.omega,
+        orientation=np.array([x.orientation for x in foot.fingers])[finger],
         lengths=foot.lengths,
         radii=foot.radii,
         opposed=opposed,
@@ -125,8 +134,16 @@ def _toes(foot: Foot, azimuth: Floats, tolerance: float) -> Toes:
     )
 
 
-def _wide(values: ArrayLike, like: Floats | Booleans) -> Floats:
-    """Numbers, one for each entry of an array: a new one in C order."""
-    wide = np.empty(like.shape)
-    wide[...] = np.asarray(values)
+def _section(foot: Foot, branch: Branch) -> CrossSection:
+    """The planes across branches, as the loops take them."""
+    return CrossSection(*map(np.array, CrossSection.of(foot, branch)))
+
+
+def _wide(values: ArrayLike, shape: tuple[int, ...]) -> Floats:
+    """Numbers of a shape, as the loops take them: themselves if they are."""
+    given = np.asarray(values)
+    if given.shape == shape and given.flags.carray:
+        return given
+    wide = np.empty(shape)
+    wide[...] = given
     return wide

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin.clearance import PARALLEL
+from zygopin.cross_section import CrossSection
 from zygopin.directions import Floats
 from zygopin.grasp import PARAMETER_SLACK, Booleans
 from zygopin.kernels import clipped, compiled, parameters
@@ -25,6 +26,8 @@ class Toes(NamedTuple):
     Attributes:
         first: Whether a phalanx is its finger's first, shape (P,).
         finger: Each phalanx's finger, shape (P,).
+        omega: Largest turn of a joint [rad].
+        orientation: Pitch of each phalanx's finger at its base [rad], shape (P,).
         lengths: Lengths [m], shape (P,).
         radii: Skin radii [m], shape (P,).
         opposed: Whether two fingers are opposable, shape (F, F).
@@ -35,6 +38,8 @@ class Toes(NamedTuple):
 
     first: Booleans
     finger: NDArray[np.intp]
+    omega: float
+    orientation: Floats
     lengths: Floats
     radii: Floats
     opposed: Booleans
@@ -58,19 +63,85 @@ class Near(NamedTuple):
 
 
 @compiled
-def across(bones: Floats, start: Floats, toes: Toes, near: Near) -> None:
+def half_pitches(poses: Floats, toes: Toes, half: Floats) -> None:
+    """Half the pitch of each phalanx: MODEL.md, section 2.
+
+    Args:
+        poses: Controls, shape (n, P).
+        toes: The foot.
+        half: The angles [rad], shape (P, n): written.
+    """
+    for p in range(len(toes.first)):
+        before, turn = 0.5 * toes.orientation[p], 0.5 * toes.omega
+        for k in range(len(poses)):
+            start = before if toes.first[p] else half[p - 1, k]
+            half[p, k] = start + turn * poses[k, p]
+
+
+@compiled
+def laid(tangent: Floats, toes: Toes, along: Floats, down: Floats) -> None:
+    """Bones in the toes' planes, as `directions.cosine_and_sine` has their directions.
+
+    Args:
+        tangent: Tangents of half the pitches, shape (P, n).
+        toes: The foot.
+        along: Horizontal parts of the bones [m], shape (P, n): written.
+        down: How far they go down [m], shape (P, n): written.
+    """
+    for p in range(len(toes.first)):
+        length, half, ahead, fall = toes.lengths[p], tangent[p], along[p], down[p]
+        for k in range(len(half)):
+            ahead[k] = length * (2.0 / (1.0 + half[k] * half[k]) - 1.0)
+        for k in range(len(half)):
+            fall[k] = length * (half[k] * (2.0 / (1.0 + half[k] * half[k])))
+
+
+@compiled
+def scaled(values: Floats, factors: Floats, out: Floats) -> None:
+    """Numbers times factors, n of them or 1, each of shape (n,)."""
+    if len(factors) == 1:
+        factor = factors[0]
+        for k in range(len(values)):
+            out[k] = factor * values[k]
+    else:
+        for k in range(len(values)):
+            out[k] = factors[k] * values[k]
+
+
+@compiled
+def seen(along: Floats, down: Floats, section: CrossSection, bones: Floats) -> None:
+    """Bones as they lie across the branch: `CrossSection.seen`.
+
+    Args:
+        along: Horizontal parts of the bones in the toes' planes [m], shape (P, n).
+        down: How far they go down [m], shape (P, n).
+        section: The planes across the branches: n of them, or 1.
+        bones: The bones across the axis [m], shape (2, P, n): written.
+    """
+    sunk = np.empty(along.shape[1])
+    for p in range(len(along)):
+        scaled(along[p], section.across[p], bones[0, p])
+        scaled(along[p], section.rise[p], bones[1, p])
+        scaled(down[p], section.level, sunk)
+        up = bones[1, p]
+        for k in range(len(sunk)):
+            up[k] -= sunk[k]
+
+
+@compiled
+def across(bones: Floats, centre: Floats, toes: Toes, near: Near) -> None:
     """Where bones are nearest to the axis.
 
     Args:
         bones: Bones across the axis [m], shape (2, P, n).
-        start: The base, seen from the axis [m], shape (2, n).
+        centre: The axes, across and up [m], shape (2, n) or (2, 1).
         toes: The foot.
         near: Written.
     """
-    x, y = start.copy()
+    x, y = np.empty(bones.shape[2]), np.empty(bones.shape[2])
     for p in range(len(toes.first)):
         if toes.first[p]:
-            x[:], y[:] = start
+            x[:], y[:] = -centre[0], -centre[1]
         u, v, t, away = bones[0, p], bones[1, p], near.t[p], near.away[p]
         right, up = near.normal[0, p], near.normal[1, p]
         least = (PARALLEL * toes.lengths[p]) ** 2
@@ -83,10 +154,12 @@ def across(bones: Floats, start: Floats, toes: Toes, near: Near) -> None:
             up[k] = y[k] + clipped(t[k]) * v[k]
         for k in range(len(t)):
             away[k] = sqrt(right[k] * right[k] + up[k] * up[k])
-        right /= away
-        up /= away
-        x += u
-        y += v
+        for k in range(len(t)):
+            right[k] /= away[k]
+            up[k] /= away[k]
+        for k in range(len(t)):
+            x[k] += u[k]
+            y[k] += v[k]
 
 
 @compiled
@@ -146,33 +219,37 @@ def ended(
             bark = away[k] - radius[k]
             over = abs(place[k] + clipped(t[k]) * axial[p, k]) - half[k]
             left[k] |= (over > min(bark, 0.0)) & (bark <= reach)
-        place += axial[p]
+        for k in range(len(t)):
+            place[k] += axial[p, k]
 
 
 @compiled
 def least_products(
-    vectors: Floats, tangent: Booleans, toes: Toes, least: Floats
+    vectors: Floats, tangent: Booleans, weights: Floats, toes: Toes, least: Floats
 ) -> None:
     """Least scalar products over tangent phalanges of opposable fingers.
 
     Args:
-        vectors: A vector for each phalanx, shape (d, P, n).
+        vectors: Two parts of a vector for each phalanx, shape (2, P, n); overwritten.
         tangent: Whether it is tangent, shape (P, n).
+        weights: What products of first parts count, shape (F, F).
         toes: The foot.
         least: The products, shape (n,): written, from all infinite.
     """
-    product = np.empty(len(least))
     some = [tangent[p].any() for p in range(len(tangent))]
     for p in range(len(some)):
+        one, two, here = vectors[0, p], vectors[1, p], tangent[p]
+        if some[p]:
+            for k in range(len(least)):
+                one[k] = one[k] if here[k] else np.nan  # which is less than nothing
         for q in range(p):
-            if some[p] and some[q] and toes.opposed[toes.finger[p], toes.finger[q]]:
-                product[:] = 0.0
-                for one, other in zip(vectors[:, p], vectors[:, q]):  # noqa: B905
-                    for k in range(len(least)):
-                        product[k] += one[k] * other[k]
+            first, second = toes.finger[p], toes.finger[q]
+            if some[p] and some[q] and toes.opposed[first, second]:
+                other, another = vectors[0, q], vectors[1, q]
+                weight = weights[first, second]
                 for k in range(len(least)):
-                    counts = tangent[p, k] & tangent[q, k] & (product[k] < least[k])
-                    least[k] = product[k] if counts else least[k]
+                    product = weight * one[k] * other[k] + two[k] * another[k]
+                    least[k] = product if product < least[k] else least[k]
 
 
 @compiled
@@ -186,10 +263,13 @@ def apart(along: Floats, down: Floats, toes: Toes, free: Booleans) -> None:
         free: The answers, shape (n,): written, from all True.
     """
     place, height = np.zeros_like(along), np.zeros_like(down)
+    middle, level = np.empty_like(along), np.empty_like(down)
     for p in range(len(toes.first)):
         if not toes.first[p]:
             place[p] = place[p - 1] + along[p - 1]
             height[p] = height[p - 1] - down[p - 1]
+        middle[p] = place[p] + along[p] / 2
+        level[p] = height[p] - down[p] / 2
     square = np.empty(len(free))
     for pair in range(len(toes.least)):
         i, j = toes.pairs[0, pair], toes.pairs[1, pair]
@@ -200,9 +280,8 @@ def apart(along: Floats, down: Floats, toes: Toes, free: Booleans) -> None:
         # The middles first: most pairs are out of reach.
         reach, close = (toes.lengths[i] + toes.lengths[j]) / 2 + least, 0
         for k in range(len(free)):
-            middle = other[k] + v[k] / 2
-            ahead, aside = x[k] + u[k] / 2 - cosine * middle, sine * middle
-            rise = z[k] - w[k] / 2 - deep[k] + fall[k] / 2
+            ahead, aside = middle[i, k] - cosine * middle[j, k], sine * middle[j, k]
+            rise = level[i, k] - level[j, k]
             close += ahead * ahead + aside * aside + rise * rise < reach * reach
         if not close:
             continue

@@ -31,8 +31,8 @@ FEW = 16
 MEASURED = 1024
 """Cases in which all is measured at once: ten times the numbers of the sieve."""
 
-LOOPED = 2048
-"""Cases of compiled loops: their arrays stay in the cache, and calls cost little."""
+LOOPED = 4096
+"""Cases of compiled loops: threads seldom wait for each other between them."""
 
 
 @dataclass(frozen=True, eq=False)
