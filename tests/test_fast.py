@@ -31,7 +31,7 @@ from zygopin import Branch, Foot, check_grasp, grasp_verdicts
 foot, branch = Foot.preset("parrot"), Branch(0.008, (0, 0, -0.0097))
 report = check_grasp(foot, [0.5] * 14, branch, engine="fast")
 verdicts = grasp_verdicts(foot, [[0.5] * 14] * 20, branch, engine="fast")
-print(report.clearance.tolist(), verdicts.feasible.tolist())
+print(report.clearance.round(12).tolist(), verdicts.feasible.tolist())
 """
 
 
@@ -71,6 +71,16 @@ def test_distances_are_the_exact_engines(case):
     rounding = 4e-16 * (foot.size + branch.largest_extent)
     assert np.abs(fast.distance - exact.distance).max() <= rounding
     assert (gap == least).all() or np.abs(gap - least).max() <= rounding
+
+
+@pytest.mark.parametrize("count", [1, fast_clearance.FEW, 100])
+def test_bones_are_the_exact_engines(count):
+    made = engine.make_engine("fast", PARROT)
+    controls = np.random.default_rng(1).random((count, 14))
+    for given in (controls, controls[::2], controls[0]):
+        exact = forward_kinematics(PARROT, given)
+        assert made.bones(given).shape == exact.shape
+        assert np.abs(made.bones(given) - exact).max() <= 4e-16 * PARROT.size
 
 
 @pytest.mark.parametrize("length", [None, 0.01, (0.004, 0.03, 0.01)])

@@ -313,7 +313,7 @@ def shaped(name: str, values: NDArray[Any], shape: tuple[int | None, ...]) -> No
 
 def read_only(values: NDArray[Any]) -> NDArray[Any]:
     """The array itself, made read-only."""
-    values.flags.writeable = False
+    values.setflags(write=False)
     return values
 
 
@@ -325,7 +325,9 @@ def freeze(record: Any) -> None:  # noqa: ANN401
     """
     values = vars(record)
     for name, value in values.items():
-        if isinstance(value, (np.ndarray, np.generic)):
+        if isinstance(value, np.ndarray):
+            values[name] = read_only(value.copy("K"))
+        elif isinstance(value, np.generic):
             values[name] = read_only(np.array(value))
 
 
@@ -364,6 +366,9 @@ def common_batch(what: str, *shapes: tuple[int, ...]) -> tuple[int, ...]:
     Raises:
         ParameterError: They do not broadcast.
     """
+    known = {shape for shape in shapes if shape}
+    if len(known) <= 1:  # mostly, and NumPy takes its time
+        return known.pop() if known else ()
     try:
         return np.broadcast_shapes(*shapes)
     except ValueError as error:

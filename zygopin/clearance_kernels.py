@@ -1,8 +1,8 @@
-"""Compiled loops over phalanges, one at a time: what `clearance.distances` measures."""
+"""Compiled loops over phalanges, one at a time: bones, and what is measured of them."""
 
 from __future__ import annotations
 
-from math import sqrt
+from math import cos, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -29,6 +29,45 @@ class Side(NamedTuple):
     normal: Floats
 
 
+class Toes(NamedTuple):
+    """What a foot's bones are made of; P phalanges.
+
+    Attributes:
+        first: Whether a phalanx is its finger's first, shape (P,).
+        orientation: Pitch of its finger at the base [rad], shape (P,).
+        omega: Largest turn of a joint [rad].
+        bone: A phalanx along its finger: x and y [m] for a pitch of 0, and how far it
+            goes down [m] for a quarter turn, shape (P, 3).
+    """
+
+    first: NDArray[np.bool_]
+    orientation: Floats
+    omega: float
+    bone: Floats
+
+
+@compiled
+def posed(poses: Floats, toes: Toes, bones: Floats) -> None:
+    """The closed form, bone by bone: MODEL.md, section 2.
+
+    Args:
+        poses: Controls, shape (n, P).
+        toes: The foot.
+        bones: Bones [m], shape (n, P, 2, 3): written.
+    """
+    for k in range(len(poses)):
+        x = y = z = pitch = 0.0
+        for p in range(len(toes.first)):
+            if toes.first[p]:
+                x, y, z, pitch = 0.0, 0.0, 0.0, toes.orientation[p]
+            bones[k, p, 0, 0], bones[k, p, 0, 1], bones[k, p, 0, 2] = x, y, z
+            pitch += toes.omega * poses[k, p]
+            x += toes.bone[p, 0] * cos(pitch)
+            y += toes.bone[p, 1] * cos(pitch)
+            z -= toes.bone[p, 2] * sin(pitch)
+            bones[k, p, 1, 0], bones[k, p, 1, 1], bones[k, p, 1, 2] = x, y, z
+
+
 @compiled
 def line(bone: Floats) -> tuple[float, ...]:
     """Where a bone starts, and how it goes to its end."""
@@ -39,7 +78,7 @@ def line(bone: Floats) -> tuple[float, ...]:
 @compiled
 def side_clearance(
     bones: Floats, radii: Floats, branches: Floats, side: Side, left: NDArray[np.bool_]
-) -> None:
+) -> bool:
     """Clearance between phalanges and branches' sides: MODEL.md, section 4.
 
     Args:
@@ -49,7 +88,11 @@ def side_clearance(
         side: Written.
         left: Where a bone meets the axis, or an end may be nearer than the side, shape
             (n,): written, from all False.
+
+    Returns:
+        Whether anything is left.
     """
+    some = False
     for k in range(len(left)):
         pose = bones[k if len(bones) > 1 else 0]
         branch = branches[k if len(branches) > 1 else 0]
@@ -76,6 +119,8 @@ def side_clearance(
             side.normal[k, p, 0], side.point[k, p, 0] = x, cx + axial * ax + radius * x
             side.normal[k, p, 1], side.point[k, p, 1] = y, cy + axial * ay + radius * y
             side.normal[k, p, 2], side.point[k, p, 2] = z, cz + axial * az + radius * z
+        some |= left[k]
+    return some
 
 
 @compiled

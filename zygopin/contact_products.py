@@ -30,18 +30,33 @@ def least_products(foot: Foot, tangent: Booleans, *vectors: Floats) -> Floats:
     flat = tangent.reshape(-1, tangent.shape[-1])
     both = flat[:, i] & flat[:, j]
     some = both.any(axis=1)
-    least = np.full((len(vectors), len(flat)), np.nan)
-    if some.any():
-        wide = np.empty((len(vectors), *tangent.shape, 3))
-        for room, given in zip(wide, vectors, strict=True):
-            room[...] = given
-        chosen = wide.reshape(len(vectors), *flat.shape, 3)[:, some]
-        # All products at once: cheaper than to gather the vectors of each pair first.
-        products = chosen @ chosen.swapaxes(-1, -2)
-        products = products.reshape(*products.shape[:2], -1)
-        opposed = products.take(i * flat.shape[1] + j, axis=-1)
-        least[:, some] = np.where(both[some], opposed, np.inf).min(axis=-1)
+    wide = np.empty((len(vectors), *tangent.shape, 3))
+    for room, given in zip(wide, vectors, strict=True):
+        room[...] = given
+    wide = wide.reshape(len(vectors), *flat.shape, 3)
+    if some.all():
+        least = _least(foot, both, wide)
+    else:
+        least = np.full(wide.shape[:2], np.nan)
+        least[:, some] = _least(foot, both[some], wide[:, some])
     return least.reshape(len(vectors), *tangent.shape[:-1])
+
+
+def _least(foot: Foot, both: Booleans, vectors: Floats) -> Floats:
+    """Least products over pairs of which each pose has one, shape (k, n).
+
+    Args:
+        foot: The foot.
+        both: Whether both phalanges of a pair are tangent, shape (n, M).
+        vectors: A vector for each phalanx, shape (k, n, P, 3).
+    """
+    i, j = _opposed(foot)
+    # All products at once: cheaper than to gather the vectors of each pair first.
+    products = vectors @ vectors.swapaxes(-1, -2)
+    count = foot.phalanx_count
+    products = products.reshape(*products.shape[:2], count**2)
+    opposed = products.take(i * count + j, axis=-1)
+    return np.asarray(np.where(both, opposed, np.inf).min(axis=-1, initial=np.inf))
 
 
 @lru_cache(FEET)

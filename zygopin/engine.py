@@ -65,11 +65,13 @@ def make_engine(name: str, foot: Foot) -> Engine:
     """
     kinds.instance("foot", foot, Foot)
     kinds.one_of("engine", name, MADE)
+    if name == "fast" and has_compiler():
+        from zygopin import fast_clearance  # with Numba
+
+        bones = partial(fast_clearance.bones, foot)
+        return Engine(name, foot, bones, fast_clearance.distances)
     if name != "fcl":
-        distances = clearance.distances
-        if name == "fast" and has_compiler():
-            from zygopin.fast_clearance import distances
-        return Engine(name, foot, partial(posed_bones, foot), distances)
+        return Engine(name, foot, partial(posed_bones, foot), clearance.distances)
     from zygopin import collision  # FCL and Pinocchio take a quarter of a second
     from zygopin.model import FootModel
 

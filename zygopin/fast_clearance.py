@@ -1,9 +1,10 @@
-"""The exact engine's distances by compiled loops: for few poses, and for many."""
+"""The exact engine's bones and distances by compiled loops, for few poses and many."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import fields
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -11,12 +12,37 @@ from numpy.typing import NDArray
 
 from zygopin import checks, clearance
 from zygopin.blocks import entries
+from zygopin.bones import posed_bones
 from zygopin.branch import Branch
 from zygopin.clearance import Clearance, Floats
-from zygopin.clearance_kernels import Side, least_gap, side_clearance
+from zygopin.clearance_kernels import Side, Toes, least_gap, posed, side_clearance
+from zygopin.directions import FEET
 from zygopin.errors import ParameterError
+from zygopin.foot import Foot
 
 Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
+
+FEW = 32
+"""Poses up to which bones one by one are quicker than products of matrices."""
+
+
+def bones(foot: Foot, controls: Floats) -> Floats:
+    """`posed_bones`, to the last places.
+
+    Args:
+        foot: The foot.
+        controls: Controls in [0, 1], shape (…, P).
+
+    Returns:
+        Bones [m], shape (…, P, 2, 3).
+    """
+    count = foot.phalanx_count
+    if controls.size > FEW * count:
+        return posed_bones(foot, controls)
+    found = np.empty((*controls.shape, 2, 3))
+    poses = np.array(controls).reshape(-1, count)
+    posed(poses, _toes(foot), found.reshape(-1, count, 2, 3))
+    return found
 
 
 def distances(
@@ -37,10 +63,10 @@ def distances(
         ParameterError: Shapes do not fit, or a pair is none of the phalanges.
     """
     # The loops trust what they are given: copies are of one type, in C order.
-    bones, radii = np.array(bones, float), np.array(radii, float)
-    checks.shaped("bones", bones, (*bones.shape[:-3], None, 2, 3))
-    checks.shaped("radii", radii, bones.shape[-3:-2])
-    return _branch_clearance(bones, radii, branch), _least_gap(bones, radii, pairs)
+    lines, skin = np.array(bones, float), np.array(radii, float)
+    checks.shaped("bones", lines, (*lines.shape[:-3], None, 2, 3))
+    checks.shaped("radii", skin, lines.shape[-3:-2])
+    return _branch_clearance(lines, skin, branch), _least_gap(lines, skin, pairs)
 
 
 def _branch_clearance(bones: Floats, radii: Floats, branch: Branch) -> Clearance:
@@ -53,17 +79,16 @@ def _branch_clearance(bones: Floats, radii: Floats, branch: Branch) -> Clearance
     rows[..., 6], rows[..., 7] = branch.radius, branch.half_length
     shape = (math.prod(batch), len(radii))
     side = Side(*(np.empty((*shape, *tail)) for tail in ((), (), (3,), (3,))))
-    left = np.zeros(shape[0], bool)
-    side_clearance(_flat(bones, batch, 3), radii, _flat(rows, batch, 1), side, left)
-    record = Clearance(*side, np.ones(shape, bool))
-    if left.any():
+    lateral, left = np.ones(shape, bool), np.zeros(shape[0], bool)
+    poses, branches = _flat(bones, batch, 3), _flat(rows, batch, 1)
+    if side_clearance(poses, radii, branches, side, left):
         part = np.flatnonzero(left)
         some = entries(bones, batch, part, 3), radii, branch.entries(batch, part)
         exact = clearance.branch_clearance(*some)
-        for field in fields(Clearance):
-            getattr(record, field.name)[part] = getattr(exact, field.name)
-    shaped = (getattr(record, field.name) for field in fields(Clearance))
-    return Clearance(*(x.reshape(*batch, *x.shape[1:]) for x in shaped))
+        for room, field in zip((*side, lateral), fields(Clearance), strict=True):
+            room[part] = getattr(exact, field.name)
+    shaped = Side(*(x.reshape(*batch, *x.shape[1:]) for x in side))
+    return Clearance(*shaped, lateral.reshape(*batch, len(radii)))
 
 
 def _least_gap(bones: Floats, radii: Floats, pairs: Pairs) -> Floats:
@@ -84,3 +109,17 @@ def _flat(values: NDArray[Any], batch: tuple[int, ...], tail: int) -> NDArray[An
     if math.prod(values.shape[:cut]) > 1 and values.shape[:cut] != batch:
         values = np.broadcast_to(values, (*batch, *one))
     return values.reshape(-1, *one)
+
+
+@lru_cache(FEET)
+def _toes(foot: Foot) -> Toes:
+    """What a foot's bones are made of."""
+    toes = np.array([(x.orientation, x.azimuth) for x in foot.fingers])
+    orientation, azimuth = toes[foot.finger_of_phalanx].T
+    ways = np.cos(azimuth), np.sin(azimuth), np.ones(len(azimuth))
+    return Toes(
+        first=np.array(foot.rank_of_phalanx == 1),
+        orientation=np.array(orientation),
+        omega=foot.omega,
+        bone=np.stack(ways, axis=1) * foot.lengths[:, None],
+    )

@@ -6,6 +6,7 @@ meets the branch, to the tolerance, is measured as `check_grasp` does.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -18,7 +19,7 @@ from zygopin.branch import Branch
 from zygopin.cases import Cases
 from zygopin.engine import has_compiler
 from zygopin.foot import Foot
-from zygopin.grasp import Booleans, Criteria, check_branch
+from zygopin.grasp import Booleans, Criteria, check_branch, check_grasp
 from zygopin.kinematics import Controls, read_controls
 from zygopin.sieve import Sieve
 
@@ -26,7 +27,7 @@ BATCHED = "exact", "fast"
 """Engines that work on many cases at once."""
 
 FEW = 16
-"""Cases up to which the sieve costs more than it saves."""
+"""Cases up to which a whole report costs no more than what saves the work on it."""
 
 MEASURED = 1024
 """Cases in which all is measured at once: ten times the numbers of the sieve."""
@@ -89,6 +90,9 @@ def grasp_verdicts(
     check_branch(foot, branch)
     shapes = values.shape[:-1], branch.batch_shape
     batch = checks.common_batch("controls and branch", *shapes)
+    if math.prod(batch) <= FEW:
+        report = check_grasp(foot, values, branch, engine=engine, criteria=criteria)
+        return GraspVerdicts(report.stable, report.grasping, report.feasible)
     cases = Cases(foot, values, branch, batch, criteria)
     compiled = engine == "fast" and has_compiler()
     found = (_by_loops if compiled else _by_arrays)(cases, threads)
@@ -141,13 +145,11 @@ def _check(
 
 def _sifted(cases: Cases, threads: int | None) -> tuple[Booleans, Booleans]:
     """Which cases may touch the infinite branch, and which enter it for certain."""
-    count = cases.count
-    touched, entered = np.ones(count, dtype=bool), np.zeros(count, dtype=bool)
-    if count > FEW:
-        sieve = Sieve(cases)
+    touched, entered = np.empty((2, cases.count), dtype=bool)
+    sieve = Sieve(cases)
 
-        def sift(part: slice) -> None:
-            touched[part], entered[part] = sieve.met(part)
+    def sift(part: slice) -> None:
+        touched[part], entered[part] = sieve.met(part)
 
-        in_blocks(sift, count, threads)
+    in_blocks(sift, cases.count, threads)
     return touched, entered
