@@ -77,10 +77,10 @@ def test_distances_are_the_exact_engines(case):
 def test_bones_are_the_exact_engines(count):
     made = engine.make_engine("fast", PARROT)
     controls = np.random.default_rng(1).random((count, 14))
-    for given in (controls, controls[::2], controls[0]):
-        exact = forward_kinematics(PARROT, given)
-        assert made.bones(given).shape == exact.shape
-        assert np.abs(made.bones(given) - exact).max() <= 4e-16 * PARROT.size
+    for poses in (controls, controls[::2], controls[0]):
+        exact = forward_kinematics(PARROT, poses)
+        assert made.bones(poses).shape == exact.shape
+        assert np.abs(made.bones(poses) - exact).max() <= 4e-16 * PARROT.size
 
 
 @pytest.mark.parametrize("length", [None, 0.01, (0.004, 0.03, 0.01)])
