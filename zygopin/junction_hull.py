@@ -14,16 +14,16 @@ from numpy.typing import NDArray
 
 from zygopin.projection import Complexes, Floats, ProjectedFinger
 
-BINS = 2048
-"""Parts of the pitch's range: less than 0.01 rad each for most fingers."""
+BINS = 1024
+"""Parts of the pitch's range: less than 0.02 rad each for most fingers."""
 
 LOGARITHM = np.log2(np.maximum(np.arange(BINS + 1), 1)).astype(np.intp)
 """Of 1, 2, …, BINS, rounded down."""
 
 KEPT = 16
-"""Phalanges whose tables are kept, of six megabytes each: a search needs three."""
+"""Phalanges whose tables are kept, of 1.4 megabytes each: a search needs three."""
 
-COARSE, FINE = 8, 32
+COARSE, FINE = 8, 16
 """Directions that are looked into first, and those for what is left."""
 
 Booleans = NDArray[np.bool_]

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin.branch_grid import BranchGrid
+from zygopin.cases import Cases
 from zygopin.clearance import dot
 from zygopin.contact_products import least_products
 from zygopin.engine import Engine
@@ -19,6 +20,7 @@ from zygopin.grasp import (
     check_grasp,
 )
 from zygopin.projection import BACK, PALM
+from zygopin.sieve import Sieve
 
 Floats = NDArray[np.float64]
 Booleans = NDArray[np.bool_]
@@ -66,6 +68,7 @@ class Witnesses:
             cells: Rows and columns of the branches, shape (n,) each.
             controls: A pose for each, shape (n, P).
         """
+        cells, controls = self._promising(cells, controls)
         if not len(cells[0]):
             return
         branches = self.grid.at(*cells)
@@ -80,6 +83,16 @@ class Witnesses:
         self.toes[kept] = toes.sum(axis=-1)[better]
         self.controls[kept] = controls[better]
         self.sides[kept] = tangent_sides(report)[better]
+
+    def _promising(
+        self, cells: tuple[Indices, ...], controls: Floats
+    ) -> tuple[tuple[Indices, ...], Floats]:
+        """Poses that may touch their branch and do not enter it for certain."""
+        branches, batch = self.grid.at(*cells), (len(controls),)
+        sieve = Sieve(Cases(self.foot, controls, branches, batch, self.criteria))
+        touched, entered = sieve.met(slice(0, len(controls)))
+        some = touched & ~entered
+        return tuple(axis[some] for axis in cells), controls[some]
 
     def confirm(self, engine: Engine) -> None:
         """Check all poses by another engine: what both show remains.
