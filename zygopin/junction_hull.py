@@ -72,9 +72,10 @@ class JunctionHull:
         level = LOGARITHM[end - begin + 1]
         rows = np.stack([begin, end + 1 - (1 << level)]) + BINS * level
         for directions, table in self.tables:
-            most = np.maximum(table[rows[0]], table[rows[1]])
+            most = np.maximum(*(table.take(each, axis=0) for each in rows))
+            most += margin[held, None]
             place = np.stack([junction.real[held], junction.imag[held]], axis=-1)
-            kept = (place @ directions <= most + margin[held, None]).all(axis=-1)
+            kept = (place @ directions <= most).all(axis=-1)
             held, rows = held[kept], rows[:, kept]
         result[:] = False
         result[held] = True
