@@ -150,24 +150,24 @@ class _Toes:
         checks.require("bones", bones, np.isfinite(bones), "finite", remedy)
         unit = _unit(bones)
         bones, skin = bones / unit, radii / unit
-        flat = bones.reshape(-1, 2, 3)
-        solids = capsules(flat, np.resize(skin, len(flat)))
+        solids = capsules(bones.reshape(-1, 2, 3), _rows(skin, bones.shape[:-2]))
         return cls(unit, bones, skin, solids)
 
 
 def _branch_clearance(toes: _Toes, branch: Branch) -> Clearance:
     """Clearance between phalanges and branches."""
-    unit, places = toes.unit, np.arange(len(toes.solids))
-    batch = np.broadcast_shapes(toes.bones.shape[:-3], branch.batch_shape)
-    shape = (*batch, toes.bones.shape[-3])
-    rows = _Rows.of(toes, branch)
-    wide = np.broadcast_to(places.reshape(toes.bones.shape[:-2]), shape)
-    phalanges = [toes.solids[i] for i in wide.ravel()]
+    unit, own = toes.unit, toes.bones.shape[:-2]
+    batch = checks.common_batch("bones and branch", own[:-1], branch.batch_shape)
+    shape = (*batch, own[-1])
+    rows, phalanges = _Rows.of(toes, branch, shape), toes.solids
+    if shape != own:
+        places = np.arange(len(phalanges)).reshape(own)
+        phalanges = [phalanges[i] for i in np.broadcast_to(places, shape).ravel()]
     # Objects cost more than queries: those of a branch serve all phalanges it has.
     share = shape[-1] if branch.batch_shape else max(len(phalanges), 1)
     record = _at_side(phalanges, rows, share)
-    ends = ~record.lateral
-    if ends.any():
+    if not record.lateral.all():
+        ends = ~record.lateral
         at_end = _at_end(rows.select(ends))
         for field in fields(Clearance):
             getattr(record, field.name)[ends] = getattr(at_end, field.name)
@@ -224,31 +224,33 @@ class _Rows:
     half: Floats
 
     @classmethod
-    def of(cls, toes: _Toes, branch: Branch) -> _Rows:
+    def of(cls, toes: _Toes, branch: Branch, shape: tuple[int, ...]) -> _Rows:
         unit = toes.unit
-        batch = np.broadcast_shapes(toes.bones.shape[:-3], branch.batch_shape)
-        shape = (*batch, len(toes.skin))
-
-        def rows(values: Floats, *tail: int) -> Floats:
-            return np.broadcast_to(values, (*shape, *tail)).reshape(-1, *tail)
-
         return cls(
-            rows(toes.bones, 2, 3),
-            rows(toes.skin),
-            rows(branch.centre[..., None, :] / unit, 3),
-            rows(branch.axis[..., None, :], 3),
-            rows(np.asarray(branch.radius)[..., None] / unit),
-            rows(branch.half_length[..., None] / unit),
+            _rows(toes.bones, shape, 2, 3),
+            _rows(toes.skin, shape),
+            _rows(branch.centre[..., None, :] / unit, shape, 3),
+            _rows(branch.axis[..., None, :], shape, 3),
+            _rows(np.asarray(branch.radius)[..., None] / unit, shape),
+            _rows(branch.half_length[..., None] / unit, shape),
         )
 
     def select(self, mask: NDArray[np.bool_] | slice) -> _Rows:
         """Some of the rows."""
         return _Rows(*(getattr(self, field.name)[mask] for field in fields(self)))
 
-    def stem(self) -> Floats:
-        """Core segments of the capsules that stand for the branches, (n, 2, 3)."""
-        below = self.centre - dot(self.centre, self.axis)[:, None] * self.axis
-        return np.stack([below - REACH * self.axis, below + REACH * self.axis], 1)
+    def stems(self) -> Solids:
+        """Slim capsules that stand for the branches, their middles beside the base."""
+        middles = self.centre - dot(self.centre, self.axis)[:, None] * self.axis
+        shapes = (fcl.Capsule(radius, 2 * REACH) for radius in SHRUNK * self.radius)
+        return [*map(placed, shapes, quaternions(self.axis), middles)]
+
+
+def _rows(values: Floats, shape: tuple[int, ...], *tail: int) -> Floats:
+    """Values that broadcast to a shape, one row for each of its entries."""
+    wide = np.empty((*shape, *tail))
+    wide[...] = values
+    return wide.reshape(-1, *tail)
 
 
 def _at_side(phalanges: Solids, rows: _Rows, share: int) -> Clearance:
@@ -259,8 +261,7 @@ def _at_side(phalanges: Solids, rows: _Rows, share: int) -> Clearance:
         rows: The phalanges and branches, as numbers.
         share: So many rows after one another have the same branch.
     """
-    some = rows.select(slice(None, None, share))
-    slims = capsules(some.stem(), SHRUNK * some.radius)
+    slims = rows.select(slice(None, None, share)).stems()
     each = [solid for solid in slims for _ in range(share)]
     gap, near, far = nearest_points(phalanges, each, signed=False)
     # Between capsules FCL's distance is exact, overlapping or not.
@@ -290,7 +291,8 @@ def _at_end(rows: _Rows) -> Clearance:
 def _core(bones: Floats, points: Floats) -> tuple[Floats, Floats]:
     """The bones' own points nearest to given points: t in [0, 1], and the points."""
     lines = bones[:, 1] - bones[:, 0]
-    t = np.clip(dot(points - bones[:, 0], lines) / dot(lines, lines), 0.0, 1.0)
+    t = dot(points - bones[:, 0], lines) / dot(lines, lines)
+    t = np.minimum(np.maximum(t, 0.0), 1.0)
     return t, bones[:, 0] + t[:, None] * lines
 
 

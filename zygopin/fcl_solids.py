@@ -36,7 +36,8 @@ def capsules(bones: Floats, radii: Floats) -> list[fcl.CollisionObject]:
     thick = (radii >= 0) & np.isfinite(radii)
     checks.require("radii", radii, thick, "at least 0 and finite", remedy)
     frames = quaternions(lines / lengths[:, None])
-    return [*map(placed, map(fcl.Capsule, radii, lengths), frames, bones.mean(1))]
+    middles = (bones[:, 0] + bones[:, 1]) / 2
+    return [*map(placed, map(fcl.Capsule, radii, lengths), frames, middles)]
 
 
 def cored(

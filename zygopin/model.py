@@ -14,7 +14,7 @@ from zygopin import checks, kinds, names
 from zygopin.description import to_urdf
 from zygopin.errors import DescriptionError, ParameterError
 from zygopin.foot import Foot
-from zygopin.kinematics import Controls, as_azimuths, as_controls
+from zygopin.kinematics import Controls, as_azimuths, read_controls
 from zygopin.urdf_check import REMEDY, check_urdf
 
 AZIMUTH_TOLERANCE = 1e-12
@@ -90,14 +90,17 @@ class FootModel:
                 azimuth turns a finger that has no reversal.
             UnknownNameError: A finger does not exist.
         """
-        controls = as_controls(self.foot, controls)
-        turns = self._turns(azimuths)
-        shapes = controls.shape[:-1], turns.shape[:-1]
-        batch = checks.common_batch("controls and azimuths", *shapes)
+        controls = read_controls(self.foot, controls)
+        batch, turns = controls.shape[:-1], None
+        if azimuths is not None:
+            turns = self._turns(azimuths)
+            shapes = batch, turns.shape[:-1]
+            batch = checks.common_batch("controls and azimuths", *shapes)
         q = np.empty((*batch, self.model.nq))
         q[...] = pin.neutral(self.model)
         q[..., self._flexion] = self.foot.omega * controls
-        q[..., self._reversal] = turns[..., self._turning]
+        if turns is not None:
+            q[..., self._reversal] = turns[..., self._turning]
         return q
 
     def forward(
@@ -134,7 +137,7 @@ class FootModel:
         except IndexError:
             return _Memory(self.model, self._frames)
 
-    def _turns(self, azimuths: ArrayLike | None) -> NDArray[np.float64]:
+    def _turns(self, azimuths: ArrayLike) -> NDArray[np.float64]:
         """Turn of each finger from its own azimuth [rad], shape (…, F)."""
         values = as_azimuths(self.foot, azimuths)
         turns = values - as_azimuths(self.foot, None)
