@@ -150,6 +150,7 @@ FAULTS = {
     "clearance-coal": (clearances, "check_grasp", changed(clearance=off)),
     "clearance-ends": (clearances, "check_grasp", changed(clearance=off)),
     "verdicts-batch": (clearances, "grasp_verdicts", changed(feasible=one_bit)),
+    "verdicts-fast": (clearances, "grasp_verdicts", changed(feasible=one_bit)),
     "reach-points": (
         reaching,
         "finger_reach",

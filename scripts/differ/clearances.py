@@ -258,6 +258,29 @@ def batch_and_single(drawn: Draw) -> Sequence[Comparison]:
     return found
 
 
+def by_loops(drawn: Draw) -> Sequence[Comparison]:
+    """The engine fast: reports and verdicts, for branches with ends too."""
+    foot, branch, controls = drawn.foot, drawn.branch, drawn.controls
+    if drawn.rng.random() < 0.5:
+        length = foot.size * 10 ** drawn.rng.uniform(-1, 0.5, len(controls))
+        branch = Branch(branch.radius, branch.centre, branch.axis, length)
+    report = check_grasp(foot, controls, branch)
+    other = check_grasp(foot, controls, branch, engine="fast")
+    quick = grasp_verdicts(foot, controls, branch, engine="fast", threads=2)
+    within, decided = rounding(foot, branch), sure(report)
+    fingers = report.finger_clearance, other.finger_clearance
+    found = [
+        close("clearance: exact / fast", report.clearance, other.clearance, within),
+        close("fingers apart: exact / fast", *fingers, within[:, 0]),
+    ]
+    for name in VERDICTS:
+        told = getattr(report, name)
+        for each, way in ((other, "report"), (quick, "verdicts")):
+            title = f"{name}: exact / fast {way}"
+            found.append(same(title, told, getattr(each, name), decided))
+    return found
+
+
 STATED = f"{ULPS} ulp of the foot's size and the branch's extent: rounding"
 
 PARALLEL_LOSS = "the length across, below 2e-7, of what they take for parallel"
@@ -290,6 +313,13 @@ ROUTES = (
         f"alike, but within {ULPS} ulp of a threshold",
         batch_and_single,
         Size(poses=12000),
+    ),
+    Route(
+        "verdicts-fast",
+        "check_grasp and grasp_verdicts: exact / compiled loops, with and without ends",
+        f"{STATED}; verdicts alike",
+        by_loops,
+        Size(poses=4000),
     ),
 )
 """Routes to clearances and verdicts."""
