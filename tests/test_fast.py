@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from planted import planted
 from strategies import controls_for, feet, reals
 
-from zygopin import clearance, engine, fast_clearance
+from zygopin import clearance, engine, fast_bones, fast_clearance
 from zygopin.branch import Branch, branch_axis
 from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.foot import Foot
@@ -73,14 +73,38 @@ def test_distances_are_the_exact_engines(case):
     assert (gap == least).all() or np.abs(gap - least).max() <= rounding
 
 
-@pytest.mark.parametrize("count", [1, fast_clearance.FEW, 100])
-def test_bones_are_the_exact_engines(count):
-    made = engine.make_engine("fast", PARROT)
-    controls = np.random.default_rng(1).random((count, 14))
-    for poses in (controls, controls[::2], controls[0]):
+@given(st.data(), st.sampled_from([(), (3,), (fast_bones.FEW + 1,), (4, 5)]))
+def test_bones_are_the_exact_engines(data, batch):
+    foot = data.draw(feet())
+    controls = data.draw(controls_for(foot, batch))
+    exact = forward_kinematics(foot, controls)
+    fast = forward_kinematics(foot, controls, engine="fast")
+    assert fast.shape == exact.shape
+    turned = 1 + foot.omega * foot.phalanx_count
+    assert np.abs(fast - exact).max() <= 1e-15 * turned * foot.size
+
+
+def test_bones_of_many_poses_in_any_order_and_place():
+    controls = np.random.default_rng(1).random((2 * fast_bones.BLOCK + 7, 14))
+    controls.setflags(write=False)
+    made, room = engine.make_engine("fast", PARROT), np.empty((*controls.shape, 2, 3))
+    for poses in (controls, controls[::2], np.asfortranarray(controls)):
         exact = forward_kinematics(PARROT, poses)
-        assert made.bones(poses).shape == exact.shape
-        assert np.abs(made.bones(poses) - exact).max() <= 4e-16 * PARROT.size
+        assert np.abs(made.bones(poses) - exact).max() <= 1e-15 * PARROT.size
+    for threads in (None, 1, 3):
+        options = {"engine": "fast", "threads": threads, "out": room}
+        assert forward_kinematics(PARROT, controls, **options) is room
+        assert np.abs(room[::2] - made.bones(controls[::2])).max() == 0
+
+
+def test_azimuths_are_turned_as_by_the_exact_engine():
+    foot, controls = Foot.preset("owl"), np.full(14, 0.4)
+    azimuths = np.array([f.azimuth for f in foot.fingers]) + 0.1
+    exact, fast = (
+        forward_kinematics(foot, controls, azimuths=azimuths, engine=name)
+        for name in ("exact", "fast")
+    )
+    assert (exact == fast).all()
 
 
 @pytest.mark.parametrize("length", [None, 0.01, (0.004, 0.03, 0.01)])
@@ -147,13 +171,15 @@ def test_a_tolerance_wider_than_the_branch_is_left_to_the_exact_engine():
 
 
 def test_without_numba_the_exact_engine_answers(monkeypatch):
-    monkeypatch.setattr("zygopin.engine.has_compiler", lambda: False)
-    monkeypatch.setattr("zygopin.verdicts.has_compiler", lambda: False)
+    for module in ("engine", "kinematics", "verdicts"):
+        monkeypatch.setattr(f"zygopin.{module}.has_compiler", lambda: False)
     assert engine.make_engine("fast", PARROT).distances is clearance.distances
     controls = np.random.default_rng(6).random((100, 14))
     fast = grasp_verdicts(PARROT, controls, PERCH, engine="fast")
     exact = grasp_verdicts(PARROT, controls, PERCH)
     assert (fast.feasible == exact.feasible).all()
+    bones = forward_kinematics(PARROT, controls, engine="fast")
+    assert (bones == forward_kinematics(PARROT, controls)).all()
 
 
 def test_a_numba_that_cannot_be_loaded_is_none():
@@ -188,7 +214,7 @@ def run(code, **environment):
     ("change", "message"),
     [
         ({"bones": np.zeros((14, 3, 2))}, "bones.shape"),
-        ({"bones": np.zeros((2, 3))}, "bones.shape"),
+        ({"bones": np.zeros((2, 3))}, "radii.shape"),
         ({"radii": PARROT.radii[:3]}, "radii.shape"),
         ({"pairs": (np.array([0]), np.array([14]))}, "not from 0 to 13"),
         ({"pairs": (np.array([-1]), np.array([3]))}, "not from 0 to 13"),
@@ -204,3 +230,5 @@ def test_what_the_loops_could_not_bear_is_refused(change, message):
 def test_fcl_takes_no_batches():
     with pytest.raises(UnknownNameError, match="engine"):
         grasp_verdicts(PARROT, np.zeros(14), PERCH, engine="fcl")
+    with pytest.raises(UnknownNameError, match="engine"):
+        forward_kinematics(PARROT, np.zeros(14), engine="fcl")

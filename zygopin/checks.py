@@ -303,6 +303,8 @@ def shaped(name: str, values: NDArray[Any], shape: tuple[int | None, ...]) -> No
     Raises:
         ParameterError: Names the shape that it has.
     """
+    if values.shape == shape:
+        return
     same = len(values.shape) == len(shape)
     if same and all(b in (a, None) for a, b in zip(values.shape, shape, strict=True)):
         return

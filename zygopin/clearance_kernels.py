@@ -1,16 +1,16 @@
-"""Compiled loops over phalanges, one at a time: bones, and what is measured of them."""
+"""Compiled loops over phalanges, one at a time: what `clearance.distances` measures."""
 
 from __future__ import annotations
 
-from math import cos, sin, sqrt
+from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from zygopin.clearance import PARALLEL
+from zygopin.clearance import PARALLEL, UNTURNED
+from zygopin.compiler import compiled
 from zygopin.directions import Floats
-from zygopin.kernels import clipped, compiled, parameters
 
 
 class Side(NamedTuple):
@@ -29,43 +29,23 @@ class Side(NamedTuple):
     normal: Floats
 
 
-class Toes(NamedTuple):
-    """What a foot's bones are made of; P phalanges.
-
-    Attributes:
-        first: Whether a phalanx is its finger's first, shape (P,).
-        orientation: Pitch of its finger at the base [rad], shape (P,).
-        omega: Largest turn of a joint [rad].
-        bone: A phalanx along its finger: x and y [m] for a pitch of 0, and how far it
-            goes down [m] for a quarter turn, shape (P, 3).
-    """
-
-    first: NDArray[np.bool_]
-    orientation: Floats
-    omega: float
-    bone: Floats
+@compiled
+def clipped(value: float) -> float:
+    """The nearest number in [0, 1]."""
+    value = value if value > 0.0 else 0.0
+    return value if value < 1.0 else 1.0
 
 
 @compiled
-def posed(poses: Floats, toes: Toes, bones: Floats) -> None:
-    """The closed form, bone by bone: MODEL.md, section 2.
-
-    Args:
-        poses: Controls, shape (n, P).
-        toes: The foot.
-        bones: Bones [m], shape (n, P, 2, 3): written.
-    """
-    for k in range(len(poses)):
-        x = y = z = pitch = 0.0
-        for p in range(len(toes.first)):
-            if toes.first[p]:
-                x, y, z, pitch = 0.0, 0.0, 0.0, toes.orientation[p]
-            bones[k, p, 0, 0], bones[k, p, 0, 1], bones[k, p, 0, 2] = x, y, z
-            pitch += toes.omega * poses[k, p]
-            x += toes.bone[p, 0] * cos(pitch)
-            y += toes.bone[p, 1] * cos(pitch)
-            z -= toes.bone[p, 2] * sin(pitch)
-            bones[k, p, 1, 0], bones[k, p, 1, 1], bones[k, p, 1, 2] = x, y, z
+def parameters(
+    uu: float, vv: float, uv: float, uw: float, vw: float
+) -> tuple[float, float]:
+    """Where two segments are nearest, as `clearance.segment_offset` has it."""
+    determinant = uu * vv - uv * uv
+    crossing = determinant > UNTURNED * uu * vv
+    s = (uv * vw - uw * vv) / determinant if crossing else 0.0
+    t = clipped((uv * clipped(s) + vw) / vv)
+    return clipped((uv * t - uw) / uu), t
 
 
 @compiled

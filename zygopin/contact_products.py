@@ -26,9 +26,9 @@ def least_products(foot: Foot, tangent: Booleans, *vectors: Floats) -> Floats:
     Returns:
         The least products, shape (k, …); NaN without such a pair.
     """
-    i, j = _opposed(foot)
+    i, j, _ = _opposed(foot)
     flat = tangent.reshape(-1, tangent.shape[-1])
-    both = flat[:, i] & flat[:, j]
+    both = flat.take(i, axis=1) & flat.take(j, axis=1)
     some = both.any(axis=1)
     wide = np.empty((len(vectors), *tangent.shape, 3))
     for room, given in zip(wide, vectors, strict=True):
@@ -50,21 +50,24 @@ def _least(foot: Foot, both: Booleans, vectors: Floats) -> Floats:
         both: Whether both phalanges of a pair are tangent, shape (n, M).
         vectors: A vector for each phalanx, shape (k, n, P, 3).
     """
-    i, j = _opposed(foot)
+    *_, places = _opposed(foot)
     # All products at once: cheaper than to gather the vectors of each pair first.
     products = vectors @ vectors.swapaxes(-1, -2)
-    count = foot.phalanx_count
-    products = products.reshape(*products.shape[:2], count**2)
-    opposed = products.take(i * count + j, axis=-1)
+    products = products.reshape(*products.shape[:2], foot.phalanx_count**2)
+    opposed = products.take(places, axis=-1)
     return np.asarray(np.where(both, opposed, np.inf).min(axis=-1, initial=np.inf))
 
 
 @lru_cache(FEET)
-def _opposed(foot: Foot) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Pairs of phalanges of opposable fingers: indices of the first and the second."""
+def _opposed(foot: Foot) -> tuple[NDArray[np.intp], ...]:
+    """Pairs of phalanges of opposable fingers, shape (M,) each.
+
+    Returns:
+        Indices of the first, of the second, and of their product in a flat matrix.
+    """
     finger = foot.finger_of_phalanx
     opposed = np.zeros((foot.phalanx_count,) * 2, dtype=bool)
     for one, other in foot.opposable_pairs:
         opposed |= (finger[:, None] == one) & (finger == other)
-    i, j = np.nonzero(opposed)
-    return checks.read_only(i), checks.read_only(j)
+    found = *np.nonzero(opposed), np.flatnonzero(opposed)
+    return tuple(map(checks.read_only, found))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -14,6 +14,7 @@ from zygopin import clearance, kinds
 from zygopin.bones import posed_bones
 from zygopin.branch import Branch
 from zygopin.clearance import Clearance, Floats
+from zygopin.compiler import has_compiler
 from zygopin.foot import Foot
 
 EngineName = Literal["exact", "fcl"]
@@ -67,9 +68,9 @@ def make_engine(name: str, foot: Foot) -> Engine:
     kinds.one_of("engine", name, MADE)
     if name == "fast" and has_compiler():
         from zygopin import fast_clearance  # with Numba
+        from zygopin.fast_bones import fast_bones
 
-        bones = partial(fast_clearance.bones, foot)
-        return Engine(name, foot, bones, fast_clearance.distances)
+        return Engine(name, foot, partial(fast_bones, foot), fast_clearance.distances)
     if name != "fcl":
         return Engine(name, foot, partial(posed_bones, foot), clearance.distances)
     from zygopin import collision  # FCL and Pinocchio take a quarter of a second
@@ -81,13 +82,3 @@ def make_engine(name: str, foot: Foot) -> Engine:
         FootModel(foot).forward,
         collision.distances,
     )
-
-
-@cache
-def has_compiler() -> bool:
-    """Whether Numba is there and fits NumPy; it takes half a second to load."""
-    try:
-        import numba  # noqa: F401
-    except ImportError:
-        return False
-    return True

@@ -1,10 +1,9 @@
-"""The exact engine's bones and distances by compiled loops, for few poses and many."""
+"""The exact engine's distances by compiled loops, for few poses and for many."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import fields
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -12,37 +11,12 @@ from numpy.typing import NDArray
 
 from zygopin import checks, clearance
 from zygopin.blocks import entries
-from zygopin.bones import posed_bones
 from zygopin.branch import Branch
 from zygopin.clearance import Clearance, Floats
-from zygopin.clearance_kernels import Side, Toes, least_gap, posed, side_clearance
-from zygopin.directions import FEET
+from zygopin.clearance_kernels import Side, least_gap, side_clearance
 from zygopin.errors import ParameterError
-from zygopin.foot import Foot
 
 Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
-
-FEW = 32
-"""Poses up to which bones one by one are quicker than products of matrices."""
-
-
-def bones(foot: Foot, controls: Floats) -> Floats:
-    """`posed_bones`, to the last places.
-
-    Args:
-        foot: The foot.
-        controls: Controls in [0, 1], shape (…, P).
-
-    Returns:
-        Bones [m], shape (…, P, 2, 3).
-    """
-    count = foot.phalanx_count
-    if controls.size > FEW * count:
-        return posed_bones(foot, controls)
-    found = np.empty((*controls.shape, 2, 3))
-    poses = np.array(controls).reshape(-1, count)
-    posed(poses, _toes(foot), found.reshape(-1, count, 2, 3))
-    return found
 
 
 def distances(
@@ -64,7 +38,7 @@ def distances(
     """
     # The loops trust what they are given: copies are of one type, in C order.
     lines, skin = np.array(bones, float), np.array(radii, float)
-    checks.shaped("bones", lines, (*lines.shape[:-3], None, 2, 3))
+    checks.shaped("bones", lines, (*lines.shape[:-2], 2, 3))
     checks.shaped("radii", skin, lines.shape[-3:-2])
     return _branch_clearance(lines, skin, branch), _least_gap(lines, skin, pairs)
 
@@ -109,17 +83,3 @@ def _flat(values: NDArray[Any], batch: tuple[int, ...], tail: int) -> NDArray[An
     if math.prod(values.shape[:cut]) > 1 and values.shape[:cut] != batch:
         values = np.broadcast_to(values, (*batch, *one))
     return values.reshape(-1, *one)
-
-
-@lru_cache(FEET)
-def _toes(foot: Foot) -> Toes:
-    """What a foot's bones are made of."""
-    toes = np.array([(x.orientation, x.azimuth) for x in foot.fingers])
-    orientation, azimuth = toes[foot.finger_of_phalanx].T
-    ways = np.cos(azimuth), np.sin(azimuth), np.ones(len(azimuth))
-    return Toes(
-        first=np.array(foot.rank_of_phalanx == 1),
-        orientation=np.array(orientation),
-        omega=foot.omega,
-        bone=np.stack(ways, axis=1) * foot.lengths[:, None],
-    )

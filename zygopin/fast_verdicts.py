@@ -10,6 +10,7 @@ from zygopin.branch import Branch
 from zygopin.cases import Cases
 from zygopin.cross_section import CrossSection
 from zygopin.directions import Floats
+from zygopin.fast_bones import chains, half_tangents
 from zygopin.foot import Foot
 from zygopin.grasp import PARAMETER_SLACK, Booleans, finger_pairs, least_gap
 from zygopin.kinematics import as_azimuths
@@ -19,7 +20,6 @@ from zygopin.verdict_kernels import (
     across,
     apart,
     ended,
-    half_pitches,
     laid,
     least_products,
     met,
@@ -77,10 +77,9 @@ class FastVerdicts:
     def _bones(self, poses: Floats) -> tuple[Floats, Floats]:
         """Horizontal parts of the bones [m], and how far they go down, (P, n) each."""
         shape = poses.shape[::-1]
-        half, along, down = np.empty(shape), np.empty(shape), np.empty(shape)
-        half_pitches(np.array(poses), self.toes, half)
-        np.tan(half, out=half)  # NumPy's works on several numbers at once
-        laid(half, self.toes, along, down)
+        along, down = np.empty(shape), np.empty(shape)
+        tangent = half_tangents(poses, chains(self.cases.foot))
+        laid(tangent, self.toes, along, down)
         return along, down
 
     def _end(
@@ -123,8 +122,6 @@ def _toes(foot: Foot, azimuth: Floats, tolerance: float) -> Toes:
     return Toes(
         first=foot.rank_of_phalanx == 1,
         finger=finger,
-        omega=foot.omega,
-        orientation=np.array([x.orientation for x in foot.fingers])[finger],
         lengths=foot.lengths,
         radii=foot.radii,
         opposed=opposed,

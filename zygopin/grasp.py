@@ -267,8 +267,9 @@ def base_to_tip(bones: Floats) -> Floats:
     Returns:
         Vectors, shape (…, P, 3).
     """
-    lines = bones[..., 1, :] - bones[..., 0, :]
-    return np.asarray(lines / norm(lines)[..., None])
+    lines: Floats = bones[..., 1, :] - bones[..., 0, :]
+    lines /= norm(lines)[..., None]
+    return lines
 
 
 class Contacts(NamedTuple):

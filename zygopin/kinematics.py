@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from zygopin import checks, kinds
 from zygopin.bones import flat_bones, posed_bones
+from zygopin.compiler import has_compiler
 from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.foot import Foot
 
 Controls = ArrayLike | Mapping[str, Sequence[float]]
 """Controls of all phalanges, shape (…, P), or a sequence for each finger's name."""
+
+BATCHED = "exact", "fast"
+"""Engines that work on many poses at once."""
 
 
 def as_controls(foot: Foot, controls: Controls) -> NDArray[np.float64]:
@@ -86,6 +90,7 @@ def forward_kinematics(
     controls: Controls,
     *,
     azimuths: ArrayLike | None = None,
+    engine: Literal["exact", "fast"] = "exact",
     threads: int | None = None,
     out: NDArray[np.float64] | None = None,
 ) -> NDArray[np.float64]:
@@ -98,6 +103,8 @@ def forward_kinematics(
         controls: Controls in [0, 1], shape (…, P), or {finger name: sequence}.
         azimuths: Azimuth of each finger [rad], shape (…, F); None: the foot's own.
             A reversible toe is turned this way.
+        engine: `fast`: in compiled loops, where Numba is installed and the azimuths
+            are the foot's own; see `make_engine`.
         threads: How many work on a large batch; None: one for each core.
         out: A C-ordered array of the result's shape to write to, again and again:
             new memory takes a fifth of the time of a large batch. None: a new one.
@@ -108,11 +115,15 @@ def forward_kinematics(
     Raises:
         ParameterError: A control is outside [0, 1], a shape is wrong, or that is no
             number of threads, or no array to write to.
-        UnknownNameError: A finger does not exist.
+        UnknownNameError: A finger or an engine does not exist.
     """
     controls = read_controls(foot, controls)
+    kinds.one_of("engine", engine, BATCHED)
     if azimuths is None:
-        return posed_bones(foot, controls, threads, _room((*controls.shape, 2, 3), out))
+        make = posed_bones
+        if engine == "fast" and has_compiler():
+            from zygopin.fast_bones import fast_bones as make  # with Numba
+        return make(foot, controls, threads, _room((*controls.shape, 2, 3), out))
     azimuths = as_azimuths(foot, azimuths)
     shapes = controls.shape[:-1], azimuths.shape[:-1]
     batch = checks.common_batch("controls and azimuths", *shapes)

@@ -14,10 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin.clearance import PARALLEL
+from zygopin.clearance_kernels import clipped, parameters
+from zygopin.compiler import compiled
 from zygopin.cross_section import CrossSection
 from zygopin.directions import Floats
 from zygopin.grasp import PARAMETER_SLACK, Booleans
-from zygopin.kernels import clipped, compiled, parameters
 
 
 class Toes(NamedTuple):
@@ -26,8 +27,6 @@ class Toes(NamedTuple):
     Attributes:
         first: Whether a phalanx is its finger's first, shape (P,).
         finger: Each phalanx's finger, shape (P,).
-        omega: Largest turn of a joint [rad].
-        orientation: Pitch of each phalanx's finger at its base [rad], shape (P,).
         lengths: Lengths [m], shape (P,).
         radii: Skin radii [m], shape (P,).
         opposed: Whether two fingers are opposable, shape (F, F).
@@ -38,8 +37,6 @@ class Toes(NamedTuple):
 
     first: Booleans
     finger: NDArray[np.intp]
-    omega: float
-    orientation: Floats
     lengths: Floats
     radii: Floats
     opposed: Booleans
@@ -60,22 +57,6 @@ class Near(NamedTuple):
     t: Floats
     away: Floats
     normal: Floats
-
-
-@compiled
-def half_pitches(poses: Floats, toes: Toes, half: Floats) -> None:
-    """Half the pitch of each phalanx: MODEL.md, section 2.
-
-    Args:
-        poses: Controls, shape (n, P).
-        toes: The foot.
-        half: The angles [rad], shape (P, n): written.
-    """
-    for p in range(len(toes.first)):
-        before, turn = 0.5 * toes.orientation[p], 0.5 * toes.omega
-        for k in range(len(poses)):
-            start = before if toes.first[p] else half[p - 1, k]
-            half[p, k] = start + turn * poses[k, p]
 
 
 @compiled

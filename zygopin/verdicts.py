@@ -17,14 +17,11 @@ from zygopin import checks, kinds
 from zygopin.blocks import as_threads, in_blocks
 from zygopin.branch import Branch
 from zygopin.cases import Cases
-from zygopin.engine import has_compiler
+from zygopin.compiler import has_compiler
 from zygopin.foot import Foot
 from zygopin.grasp import Booleans, Criteria, check_branch, check_grasp
-from zygopin.kinematics import Controls, read_controls
+from zygopin.kinematics import BATCHED, Controls, read_controls
 from zygopin.sieve import Sieve
-
-BATCHED = "exact", "fast"
-"""Engines that work on many cases at once."""
 
 FEW = 16
 """Cases up to which a whole report costs no more than what saves the work on it."""

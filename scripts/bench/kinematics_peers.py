@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from typing import Literal
 
 import numpy as np
 
@@ -21,39 +22,48 @@ SINGLE = 1e-6
 """Difference over the foot's size that is allowed where floats of 32 bits come in."""
 
 
-def closed_form(threads: int | None) -> Callable[[Posing], Forward]:
+EngineName = Literal["exact", "fast"]
+
+
+def closed_form(engine: EngineName, threads: int | None) -> Callable[[Posing], Forward]:
     """Zygopin's own, on so many threads."""
-    return lambda job: (
-        lambda: forward_kinematics(job.foot, job.controls, threads=threads)
-    )
+
+    def make(job: Posing) -> Forward:
+        case = job.foot, job.controls
+        return lambda: forward_kinematics(*case, engine=engine, threads=threads)
+
+    return make
 
 
-def reused(job: Posing) -> Forward:
+def reused(engine: EngineName) -> Callable[[Posing], Forward]:
     """Zygopin's own, written to one array again and again."""
-    room = np.empty((len(job.controls), job.foot.phalanx_count, 2, 3))
-    return lambda: forward_kinematics(job.foot, job.controls, out=room)
+
+    def make(job: Posing) -> Forward:
+        room = np.empty((len(job.controls), job.foot.phalanx_count, 2, 3))
+        case = job.foot, job.controls
+        return lambda: forward_kinematics(*case, engine=engine, out=room)
+
+    return make
 
 
-OWN: tuple[Poser, ...] = (
-    Poser(
-        "zygopin, forward_kinematics",
-        "14 bones in closed form",
-        closed_form(None),
-        threads=cores(),
-    ),
-    Poser(
-        "zygopin, forward_kinematics, one thread",
-        "the same on one thread",
-        closed_form(1),
-    ),
-    Poser(
-        "zygopin, forward_kinematics, memory reused",
-        "the same on all cores, written to one array again and again",
-        reused,
-        threads=cores(),
-    ),
-)
-"""Zygopin's own; the first is what all others are held against."""
+def own(engine: EngineName, named: str, packages: tuple[str, ...]) -> Iterator[Poser]:
+    """Zygopin's own, by one of its engines."""
+    name = f"zygopin, forward kinematics{named}"
+    for way, computes, make, threads in (
+        ("", "14 bones in closed form", closed_form(engine, None), cores()),
+        (", one thread", "the same on one thread", closed_form(engine, 1), 1),
+        (
+            ", memory reused",
+            "the same on all cores, written to one array again and again",
+            reused(engine),
+            cores(),
+        ),
+    ):
+        yield Poser(name + way, computes, make, packages=packages, threads=threads)
+
+
+OWN: tuple[Poser, ...] = (*own("fast", ", fast", ("numba",)), *own("exact", "", ()))
+"""Zygopin's own; the first that can run is what all others are held against."""
 
 COMPILED: tuple[Poser, ...] = (
     Poser(
