@@ -11,14 +11,13 @@ from zygopin.blocks import Part, entries
 from zygopin.bones import posed_bones
 from zygopin.branch import Branch
 from zygopin.clearance import branch_clearance
-from zygopin.contact_products import least_products
+from zygopin.contact_products import base_to_tip, least_products
 from zygopin.directions import Floats
 from zygopin.foot import Foot
 from zygopin.grasp import (
     PARAMETER_SLACK,
     Booleans,
     Criteria,
-    base_to_tip,
     classify,
     fingers_apart,
 )

@@ -155,3 +155,40 @@ def least_gap(
             gap = sqrt(x * x + y * y + z * z) - (radii[i] + radii[j])
             least[k] = min(least[k], gap)
     return True
+
+
+@compiled
+def least_products(
+    tangent: NDArray[np.bool_],
+    normals: Floats,
+    bones: Floats,
+    pairs: tuple[NDArray[np.intp], NDArray[np.intp]],
+    least: Floats,
+) -> None:
+    """Least scalar products over tangent phalanges of opposable fingers.
+
+    Args:
+        tangent: Which phalanges are tangent, shape (n, P).
+        normals: Unit normals at their contacts, shape (n, P, 3).
+        bones: Bones [m], shape (n, P, 2, 3) or (1, P, 2, 3).
+        pairs: Numbers of the first phalanges and of the second, shape (M,) each.
+        least: Those of normals and of unit vectors along the bones, shape (2, n):
+            written, from all NaN.
+    """
+    for k in range(len(tangent)):
+        pose, normal = bones[k if len(bones) > 1 else 0], normals[k]
+        for i, j in zip(*pairs):  # noqa: B905
+            if not (tangent[k, i] and tangent[k, j]):
+                continue
+            _, _, _, x, y, z = line(pose[i])
+            _, _, _, u, v, w = line(pose[j])
+            lengths = sqrt((x * x + y * y + z * z) * (u * u + v * v + w * w))
+            along = (x * u + y * v + z * w) / lengths
+            section = (
+                normal[i, 0] * normal[j, 0]
+                + normal[i, 1] * normal[j, 1]
+                + normal[i, 2] * normal[j, 2]
+            )
+            # NaN is what is not there yet.
+            least[0, k] = least[0, k] if least[0, k] <= section else section
+            least[1, k] = least[1, k] if least[1, k] <= along else along

@@ -8,10 +8,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from zygopin import checks
+from zygopin.clearance import norm
 from zygopin.directions import FEET, Floats
 from zygopin.foot import Foot
 
 Booleans = NDArray[np.bool_]
+Indices = NDArray[np.intp]
+
+
+def both_products(
+    foot: Foot, tangent: Booleans, normals: Floats, bones: Floats
+) -> Floats:
+    """`least_products` of contact normals, and of the phalanges' directions.
+
+    Args:
+        foot: The foot.
+        tangent: Which phalanges are tangent, shape (…, P).
+        normals: Unit normals at their contacts, shape (…, P, 3).
+        bones: Bones [m], shape (…, P, 2, 3), which may have fewer batch axes.
+
+    Returns:
+        The two products, shape (2, …); NaN without such a pair.
+    """
+    return least_products(foot, tangent, normals, base_to_tip(bones))
 
 
 def least_products(foot: Foot, tangent: Booleans, *vectors: Floats) -> Floats:
@@ -26,7 +45,7 @@ def least_products(foot: Foot, tangent: Booleans, *vectors: Floats) -> Floats:
     Returns:
         The least products, shape (k, …); NaN without such a pair.
     """
-    i, j, _ = _opposed(foot)
+    i, j, _ = opposed_pairs(foot)
     flat = tangent.reshape(-1, tangent.shape[-1])
     both = flat.take(i, axis=1) & flat.take(j, axis=1)
     some = both.any(axis=1)
@@ -42,6 +61,20 @@ def least_products(foot: Foot, tangent: Booleans, *vectors: Floats) -> Floats:
     return least.reshape(len(vectors), *tangent.shape[:-1])
 
 
+def base_to_tip(bones: Floats) -> Floats:
+    """Unit vectors along bones.
+
+    Args:
+        bones: Bones, shape (…, P, 2, 3).
+
+    Returns:
+        Vectors, shape (…, P, 3).
+    """
+    lines: Floats = bones[..., 1, :] - bones[..., 0, :]
+    lines /= norm(lines)[..., None]
+    return lines
+
+
 def _least(foot: Foot, both: Booleans, vectors: Floats) -> Floats:
     """Least products over pairs of which each pose has one, shape (k, n).
 
@@ -50,7 +83,7 @@ def _least(foot: Foot, both: Booleans, vectors: Floats) -> Floats:
         both: Whether both phalanges of a pair are tangent, shape (n, M).
         vectors: A vector for each phalanx, shape (k, n, P, 3).
     """
-    *_, places = _opposed(foot)
+    *_, places = opposed_pairs(foot)
     # All products at once: cheaper than to gather the vectors of each pair first.
     products = vectors @ vectors.swapaxes(-1, -2)
     products = products.reshape(*products.shape[:2], foot.phalanx_count**2)
@@ -59,15 +92,19 @@ def _least(foot: Foot, both: Booleans, vectors: Floats) -> Floats:
 
 
 @lru_cache(FEET)
-def _opposed(foot: Foot) -> tuple[NDArray[np.intp], ...]:
-    """Pairs of phalanges of opposable fingers, shape (M,) each.
+def opposed_pairs(foot: Foot) -> tuple[Indices, Indices, Indices]:
+    """Pairs of phalanges of opposable fingers.
+
+    Args:
+        foot: The foot.
 
     Returns:
-        Indices of the first, of the second, and of their product in a flat matrix.
+        Indices of the first, of the second, and of their product in a flat matrix,
+        shape (M,) each, read-only.
     """
     finger = foot.finger_of_phalanx
     opposed = np.zeros((foot.phalanx_count,) * 2, dtype=bool)
     for one, other in foot.opposable_pairs:
         opposed |= (finger[:, None] == one) & (finger == other)
-    found = *np.nonzero(opposed), np.flatnonzero(opposed)
-    return tuple(map(checks.read_only, found))
+    first, second = map(checks.read_only, np.nonzero(opposed))
+    return first, second, checks.read_only(np.flatnonzero(opposed))

@@ -15,6 +15,7 @@ from zygopin.bones import posed_bones
 from zygopin.branch import Branch
 from zygopin.clearance import Clearance, Floats
 from zygopin.compiler import has_compiler
+from zygopin.contact_products import Booleans, both_products
 from zygopin.foot import Foot
 
 EngineName = Literal["exact", "fcl"]
@@ -39,12 +40,14 @@ class Engine:
         bones: Controls (…, P) that were checked to bones (…, P, 2, 3).
         distances: Bones, radii, branch and pairs of phalanges to a `Clearance`, and
             to the least distance of the pairs' skins in the bones' batch (…).
+        products: `contact_products.both_products`, of what was measured.
     """
 
     name: str
     foot: Foot
     bones: Callable[[Floats], Floats]
     distances: Callable[[Floats, Floats, Branch, Pairs], tuple[Clearance, Floats]]
+    products: Callable[[Foot, Booleans, Floats, Floats], Floats] = both_products
 
 
 def make_engine(name: str, foot: Foot) -> Engine:
@@ -70,7 +73,13 @@ def make_engine(name: str, foot: Foot) -> Engine:
         from zygopin import fast_clearance  # with Numba
         from zygopin.fast_bones import fast_bones
 
-        return Engine(name, foot, partial(fast_bones, foot), fast_clearance.distances)
+        return Engine(
+            name,
+            foot,
+            partial(fast_bones, foot),
+            fast_clearance.distances,
+            fast_clearance.products,
+        )
     if name != "fcl":
         return Engine(name, foot, partial(posed_bones, foot), clearance.distances)
     from zygopin import collision  # FCL and Pinocchio take a quarter of a second

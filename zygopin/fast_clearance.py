@@ -13,8 +13,15 @@ from zygopin import checks, clearance
 from zygopin.blocks import entries
 from zygopin.branch import Branch
 from zygopin.clearance import Clearance, Floats
-from zygopin.clearance_kernels import Side, least_gap, side_clearance
+from zygopin.clearance_kernels import (
+    Side,
+    least_gap,
+    least_products,
+    side_clearance,
+)
+from zygopin.contact_products import Booleans, opposed_pairs
 from zygopin.errors import ParameterError
+from zygopin.foot import Foot
 
 Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
 
@@ -41,6 +48,30 @@ def distances(
     checks.shaped("bones", lines, (*lines.shape[:-2], 2, 3))
     checks.shaped("radii", skin, lines.shape[-3:-2])
     return _branch_clearance(lines, skin, branch), _least_gap(lines, skin, pairs)
+
+
+def products(foot: Foot, tangent: Booleans, normals: Floats, bones: Floats) -> Floats:
+    """`contact_products.both_products`, to the last places.
+
+    Args:
+        foot: The foot.
+        tangent: Which phalanges are tangent, shape (…, P).
+        normals: Unit normals at their contacts, shape (…, P, 3).
+        bones: Bones [m], shape (…, P, 2, 3), which may have fewer batch axes.
+
+    Returns:
+        The two products, shape (2, …); NaN without such a pair.
+    """
+    batch, count = tangent.shape[:-1], foot.phalanx_count
+    least = np.full((2, math.prod(batch)), np.nan)
+    least_products(
+        np.array(tangent).reshape(-1, count),
+        np.array(normals).reshape(-1, count, 3),
+        _flat(np.array(bones), batch, 3),
+        opposed_pairs(foot)[:2],
+        least,
+    )
+    return least.reshape(2, *batch)
 
 
 def _branch_clearance(bones: Floats, radii: Floats, branch: Branch) -> Clearance:

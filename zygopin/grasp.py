@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from zygopin import checks, kinds
 from zygopin.blocks import entries
 from zygopin.branch import Branch, check_base
-from zygopin.clearance import Clearance, Floats, least_skin_distance, norm
-from zygopin.contact_products import least_products
+from zygopin.clearance import Clearance, Floats, least_skin_distance
 from zygopin.directions import FEET
 from zygopin.engine import Engine, FasterName, make_engine
 from zygopin.errors import ParameterError
@@ -232,9 +231,7 @@ def _report(
     bones = engine.bones(controls)
     near, apart = engine.distances(bones, foot.radii, branch, finger_pairs(foot))
     contacts = classify(near, tolerance)
-    section, along = least_products(
-        foot, contacts.tangent, near.normal, base_to_tip(bones)
-    )
+    section, along = engine.products(foot, contacts.tangent, near.normal, bones)
     decisive = section if criteria.reading == "section" else along
     batch = near.distance.shape[:-1]
     free = ~contacts.penetrating.any(axis=-1) & (apart >= least_gap(foot, tolerance))
@@ -256,20 +253,6 @@ def _report(
         scalar_product=section,
         scalar_product_base_to_tip=along,
     )
-
-
-def base_to_tip(bones: Floats) -> Floats:
-    """Unit vectors along bones.
-
-    Args:
-        bones: Bones, shape (…, P, 2, 3).
-
-    Returns:
-        Vectors, shape (…, P, 3).
-    """
-    lines: Floats = bones[..., 1, :] - bones[..., 0, :]
-    lines /= norm(lines)[..., None]
-    return lines
 
 
 class Contacts(NamedTuple):

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from zygopin.contact_products import base_to_tip
 from zygopin.figures import (
     ACCENT,
     INK,
@@ -17,7 +18,7 @@ from zygopin.figures import (
     note,
     save_figure,
 )
-from zygopin.grasp import GraspReport, base_to_tip, check_grasp
+from zygopin.grasp import GraspReport, check_grasp
 from zygopin.paper.finger_plane import (
     PAIR,
     Floats,
