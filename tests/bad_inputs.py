@@ -40,7 +40,10 @@ from good_inputs import GOOD, INTERNAL, OWNERS, RECORDS
 import zygopin
 
 ARRAYS = ("ArrayLike", "Floats", "NDArray[np.float64]", "Controls", "Law | Controls")
-NAMED = ("Reading", "Preference", "Section", "Phalanges", "Sensing", "EngineName")
+NAMED = (
+    *("Reading", "Preference", "Section", "Phalanges", "Sensing"),
+    *("EngineName", "BatchName", "FasterName | Engine"),
+)
 
 LEVELS = listed(
     without(NUMBERS, "list", "array of one"),
@@ -66,7 +69,6 @@ KINDS: dict[str, Kind] = {
     "bool": listed(FLAGS),
     "str": listed(NAMES),
     **dict.fromkeys(NAMED, listed(NAMES)),
-    "EngineName | Engine": listed(NAMES),
     "Shape": CLOSINGS,
     "str | int": listed(NAMES, without(NUMBERS, "text")),
     **dict.fromkeys(ARRAYS, arrays),

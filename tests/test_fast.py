@@ -197,6 +197,38 @@ print(sum(verdict_kernels.across.stats.cache_hits.values()))
     assert [int(said.split()[-1]) for said in outcomes] == [0, 1]
 
 
+def test_kept_code_is_not_used_when_what_it_takes_has_changed(tmp_path):
+    loops = """
+from taken import FACTOR, added
+from zygopin.compiler import compiled
+@compiled
+def loop(x):
+    return added(FACTOR * x)
+print(loop(1))
+"""
+    taken = """
+from zygopin.compiler import compiled
+FACTOR = {}
+@compiled
+def added(x):
+    return x + {}
+"""
+    (tmp_path / "loops.py").write_text(loops)
+    said = []
+    for factor, last in ((2, 5), (3, 5), (3, 7)):
+        (tmp_path / "taken.py").write_text(taken.format(factor, last))
+        said.append(run("import loops", PYTHONPATH=str(tmp_path)).strip())
+    assert said == ["7", "8", "10"]
+
+
+def test_loops_are_compiled_anew_where_no_folder_can_be_written():
+    said = run(f"""
+from numba.core.caching import CompileResultCacheImpl
+CompileResultCacheImpl._locator_classes = []
+{FAST_CHECK}""")
+    assert said == run(FAST_CHECK)
+
+
 def run(code, **environment):
     """What a script prints."""
     done = subprocess.run(

@@ -13,6 +13,7 @@ import pytest
 
 from zygopin.branch import Branch
 from zygopin.clearance import Clearance
+from zygopin.contact_products import both_products
 from zygopin.engine import Engine
 from zygopin.foot import Finger, Foot
 from zygopin.grasp import (
@@ -45,8 +46,9 @@ def judged(evidence, apart=1.0, thickness=0.0):
     foot = Foot(fingers=PAIR, thickness=thickness)
     bones = np.zeros((2, 2, 3))
     bones[:, 1, 0] = 1, -1
+    measured = evidence, np.array(apart)
     engine = Engine(
-        "by hand", foot, lambda _: bones, lambda *_: (evidence, np.array(apart))
+        "by hand", foot, lambda _: bones, lambda *_: measured, both_products
     )
     criteria = Criteria(tolerance=TOLERANCE)
     branch = Branch(1, (0, 0, -2))

@@ -47,7 +47,7 @@ class Engine:
     foot: Foot
     bones: Callable[[Floats], Floats]
     distances: Callable[[Floats, Floats, Branch, Pairs], tuple[Clearance, Floats]]
-    products: Callable[[Foot, Booleans, Floats, Floats], Floats] = both_products
+    products: Callable[[Foot, Booleans, Floats, Floats], Floats]
 
 
 def make_engine(name: str, foot: Foot) -> Engine:
@@ -73,21 +73,13 @@ def make_engine(name: str, foot: Foot) -> Engine:
         from zygopin import fast_clearance  # with Numba
         from zygopin.fast_bones import fast_bones
 
-        return Engine(
-            name,
-            foot,
-            partial(fast_bones, foot),
-            fast_clearance.distances,
-            fast_clearance.products,
-        )
-    if name != "fcl":
-        return Engine(name, foot, partial(posed_bones, foot), clearance.distances)
-    from zygopin import collision  # FCL and Pinocchio take a quarter of a second
-    from zygopin.model import FootModel
+        bones, distances = partial(fast_bones, foot), fast_clearance.distances
+        return Engine(name, foot, bones, distances, fast_clearance.products)
+    if name == "fcl":
+        from zygopin import collision  # FCL and Pinocchio take a quarter of a second
+        from zygopin.model import FootModel
 
-    return Engine(
-        name,
-        foot,
-        FootModel(foot).forward,
-        collision.distances,
-    )
+        forward = FootModel(foot).forward
+        return Engine(name, foot, forward, collision.distances, both_products)
+    bones = partial(posed_bones, foot)
+    return Engine(name, foot, bones, clearance.distances, both_products)

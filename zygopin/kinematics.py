@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from zygopin import checks, kinds
 from zygopin.bones import flat_bones, posed_bones
-from zygopin.compiler import has_compiler
+from zygopin.compiler import BATCHED, BatchName, has_compiler
 from zygopin.errors import ParameterError, UnknownNameError
 from zygopin.foot import Foot
 
 Controls = ArrayLike | Mapping[str, Sequence[float]]
 """Controls of all phalanges, shape (…, P), or a sequence for each finger's name."""
-
-BATCHED = "exact", "fast"
-"""Engines that work on many poses at once."""
 
 
 def as_controls(foot: Foot, controls: Controls) -> NDArray[np.float64]:
@@ -90,7 +87,7 @@ def forward_kinematics(
     controls: Controls,
     *,
     azimuths: ArrayLike | None = None,
-    engine: Literal["exact", "fast"] = "exact",
+    engine: BatchName = "exact",
     threads: int | None = None,
     out: NDArray[np.float64] | None = None,
 ) -> NDArray[np.float64]:

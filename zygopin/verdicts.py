@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,10 +16,10 @@ from zygopin import checks, kinds
 from zygopin.blocks import as_threads, in_blocks
 from zygopin.branch import Branch
 from zygopin.cases import Cases
-from zygopin.compiler import has_compiler
+from zygopin.compiler import BATCHED, BatchName, has_compiler
 from zygopin.foot import Foot
 from zygopin.grasp import Booleans, Criteria, check_branch, check_grasp
-from zygopin.kinematics import BATCHED, Controls, read_controls
+from zygopin.kinematics import Controls, read_controls
 from zygopin.sieve import Sieve
 
 FEW = 16
@@ -56,7 +55,7 @@ def grasp_verdicts(
     controls: Controls,
     branch: Branch,
     *,
-    engine: Literal["exact", "fast"] = "exact",
+    engine: BatchName = "exact",
     criteria: Criteria | None = None,
     threads: int | None = None,
 ) -> GraspVerdicts:

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib import import_module
-from typing import Literal
 
 from bench.checking import Answer, Checking, of_verdicts
 from bench.peer import Peer, cores
 from zygopin import check_grasp, grasp_verdicts, make_engine
+from zygopin.compiler import BatchName
 
 Check = Callable[[], Answer]
 Checker = Peer[Checking, Answer]
@@ -21,9 +21,7 @@ Checker = Peer[Checking, Answer]
 POSED = "FK by Pinocchio, 14 distances, verdict"
 
 
-def verdicts(
-    engine: Literal["exact", "fast"], threads: int | None
-) -> Callable[[Checking], Check]:
+def verdicts(engine: BatchName, threads: int | None) -> Callable[[Checking], Check]:
     """Zygopin's verdicts alone, by an engine that takes many cases at once."""
 
     def make(job: Checking) -> Check:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Literal
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from bench.pinocchio_loop import why_not
 from bench.posing import Posing
 from zygopin import forward_kinematics
 from zygopin.clearance import Floats
+from zygopin.compiler import BatchName
 
 Forward = Callable[[], Floats]
 
@@ -22,10 +22,7 @@ SINGLE = 1e-6
 """Difference over the foot's size that is allowed where floats of 32 bits come in."""
 
 
-EngineName = Literal["exact", "fast"]
-
-
-def closed_form(engine: EngineName, threads: int | None) -> Callable[[Posing], Forward]:
+def closed_form(engine: BatchName, threads: int | None) -> Callable[[Posing], Forward]:
     """Zygopin's own, on so many threads."""
 
     def make(job: Posing) -> Forward:
@@ -35,7 +32,7 @@ def closed_form(engine: EngineName, threads: int | None) -> Callable[[Posing], F
     return make
 
 
-def reused(engine: EngineName) -> Callable[[Posing], Forward]:
+def reused(engine: BatchName) -> Callable[[Posing], Forward]:
     """Zygopin's own, written to one array again and again."""
 
     def make(job: Posing) -> Forward:
@@ -46,7 +43,7 @@ def reused(engine: EngineName) -> Callable[[Posing], Forward]:
     return make
 
 
-def own(engine: EngineName, named: str, packages: tuple[str, ...]) -> Iterator[Poser]:
+def own(engine: BatchName, named: str, packages: tuple[str, ...]) -> Iterator[Poser]:
     """Zygopin's own, by one of its engines."""
     name = f"zygopin, forward kinematics{named}"
     for way, computes, make, threads in (
