@@ -348,9 +348,10 @@ def require(
     Raises:
         ParameterError: Names the first bad entry and its index.
     """
-    if np.all(good):
+    good = np.asarray(good)
+    if good.all():
         return
-    index = tuple(int(i) for i in np.argwhere(~np.asarray(good))[0])
+    index = tuple(int(i) for i in np.argwhere(~good)[0])
     at = f"[{', '.join(map(str, index))}]" if index else ""
     raise ParameterError(f"{name}{at}", values[index], allowed, remedy)
 

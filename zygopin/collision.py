@@ -102,7 +102,7 @@ def solid_nearest(bones: Floats, solid: Solid) -> Nearest:
     bare = capsules(local, np.zeros(len(local)))
     other, middle, radius = cored(solid, origin, unit)
     gap, near, far = nearest_points(bare, [other] * len(bare), signed=radius == 0)
-    t, core = _core(local, near)
+    t, core = _core(local[:, 0], local[:, 1] - local[:, 0], near)
     apart = (np.abs(gap) > COINCIDENT)[:, None]
     vectors = np.where(apart, np.sign(gap)[:, None] * (near - far), core - middle)
     size = norm(vectors)[:, None]
@@ -204,11 +204,11 @@ def _may_be_least(
     No pair is farther apart than its middles, none nearer than its spheres.
     """
     i, j = pairs
-    middle, line = bones.mean(axis=2), bones[:, :, 1] - bones[:, :, 0]
-    size = norm(line) / 2
-    offset = middle[:, i] - middle[:, j]
-    most = norm(offset) - radii[i] - radii[j]
-    least = most - size[:, i] - size[:, j]
+    start, end = bones[:, :, 0], bones[:, :, 1]
+    middle, size = (start + end) / 2, norm(end - start) / 2
+    offset = middle.take(i, axis=1) - middle.take(j, axis=1)
+    most = norm(offset) - (radii.take(i) + radii.take(j))
+    least = most - (size.take(i, axis=1) + size.take(j, axis=1))
     return np.asarray(least <= most.min(axis=1, initial=np.inf, keepdims=True))
 
 
@@ -239,6 +239,10 @@ class _Rows:
         """Some of the rows."""
         return _Rows(*(getattr(self, field.name)[mask] for field in fields(self)))
 
+    def lines(self) -> Floats:
+        """From the start of each bone to its end."""
+        return np.asarray(self.bone[:, 1] - self.bone[:, 0])
+
     def stems(self) -> Solids:
         """Slim capsules that stand for the branches, their middles beside the base."""
         middles = self.centre - dot(self.centre, self.axis)[:, None] * self.axis
@@ -266,13 +270,15 @@ def _at_side(phalanges: Solids, rows: _Rows, share: int) -> Clearance:
     gap, near, far = nearest_points(phalanges, each, signed=False)
     # Between capsules FCL's distance is exact, overlapping or not.
     distance = gap - (1 - SHRUNK) * rows.radius
-    t, core = _core(rows.bone, near)
+    lines = rows.lines()
+    t, core = _core(rows.bone[:, 0], lines, near)
     normal = _direction(near - far, gap, rows)
     axial = dot(core - rows.centre, rows.axis)
     lateral = np.abs(axial) - rows.half <= np.minimum(distance + rows.skin, 0.0)
     point = rows.centre + axial[:, None] * rows.axis + rows.radius[:, None] * normal
     offset = (distance + rows.radius + rows.skin)[:, None] * normal
-    return Clearance(distance, _on_line(t, offset, rows), point, normal, lateral)
+    vertex = _on_line(t, offset, lines, rows.axis)
+    return Clearance(distance, vertex, point, normal, lateral)
 
 
 def _at_end(rows: _Rows) -> Clearance:
@@ -283,17 +289,16 @@ def _at_end(rows: _Rows) -> Clearance:
     solids = [*map(placed, shapes, frames, rows.centre)]
     gap, near, far = nearest_points(bare, solids, signed=True)
     normal = _direction(near - far, gap, rows)
-    t, _ = _core(rows.bone, near)
+    t, _ = _core(rows.bone[:, 0], rows.lines(), near)
     lateral = np.abs(dot(normal, rows.axis)) < SIDEWAYS
     return Clearance(gap - rows.skin, t, far, normal, lateral)
 
 
-def _core(bones: Floats, points: Floats) -> tuple[Floats, Floats]:
+def _core(starts: Floats, lines: Floats, points: Floats) -> tuple[Floats, Floats]:
     """The bones' own points nearest to given points: t in [0, 1], and the points."""
-    lines = bones[:, 1] - bones[:, 0]
-    t = dot(points - bones[:, 0], lines) / dot(lines, lines)
+    t = dot(points - starts, lines) / dot(lines, lines)
     t = np.minimum(np.maximum(t, 0.0), 1.0)
-    return t, bones[:, 0] + t[:, None] * lines
+    return t, starts + t[:, None] * lines
 
 
 def _direction(offsets: Floats, gaps: Floats, rows: _Rows) -> Floats:
@@ -308,14 +313,13 @@ def _direction(offsets: Floats, gaps: Floats, rows: _Rows) -> Floats:
     return np.asarray(vectors / norm(vectors)[:, None])
 
 
-def _on_line(t: Floats, offsets: Floats, rows: _Rows) -> Floats:
+def _on_line(t: Floats, offsets: Floats, lines: Floats, axes: Floats) -> Floats:
     """From the nearest point of the bone to that of its line: one Newton step.
 
     The squared distance from the axis is a parabola along the line, so its slope
     at t gives the vertex. Inside the bone the slope is zero but for rounding.
     """
-    lines = rows.bone[:, 1] - rows.bone[:, 0]
-    square = dot(lines, lines) - dot(lines, rows.axis) ** 2
+    square = dot(lines, lines) - dot(lines, axes) ** 2
     clamped = (np.abs(t - 0.5) > 0.5 - CLAMPED) & (square > 0)
     return t - np.divide(dot(offsets, lines), square, np.zeros_like(t), where=clamped)
 

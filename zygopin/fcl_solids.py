@@ -94,7 +94,10 @@ def placed(shape: object, frame: Floats, centre: Floats) -> fcl.CollisionObject:
 
 
 def quaternions(directions: Floats) -> Floats:
-    """Rotations that take the z axis to given directions.
+    """Rotations that lay the z axis along lines, one way or the other.
+
+    What is laid so must be the same from both ends, as capsules and cylinders are:
+    the nearer way is far from the one direction where the formula has no value.
 
     Args:
         directions: Unit vectors, shape (n, 3).
@@ -103,10 +106,11 @@ def quaternions(directions: Floats) -> Floats:
         Quaternions (w, x, y, z), shape (n, 4).
     """
     x, y, z = directions.T
-    # Two forms of one rotation, each far from its own singular direction.
-    up = z >= 0
-    turn = np.array([np.where(up, 1 + z, x), -y * up, np.where(up, x, 1 - z), y * ~up])
-    return np.asarray((turn / np.sqrt(2 * (1 + np.abs(z)))).T)
+    way, up = np.copysign(1.0, z), 1 + np.abs(z)
+    turns = np.zeros((len(directions), 4))
+    turns[:, 0], turns[:, 1], turns[:, 2] = up, -y * way, x * way
+    turns /= np.sqrt(2 * up)[:, None]
+    return turns
 
 
 def nearest_points(
