@@ -157,6 +157,18 @@ def test_verdicts_of_planted_grasps_are_the_exact_engines():
         assert 0 < exact.grasping.sum() < exact.stable.sum()
 
 
+def test_loops_that_are_not_compiled_say_the_same():
+    chosen = "reports or planted or broadcast or many_poses or through or wider"
+    warned = "ignore::RuntimeWarning"  # numbers divided by zero, of bones left aside
+    done = subprocess.run(
+        [sys.executable, "-mpytest", "-n0", "-W", warned, __file__, "-k", chosen],
+        env={**os.environ, "NUMBA_DISABLE_JIT": "1"},
+        capture_output=True,
+        text=True,
+    )
+    assert (done.returncode, done.stderr) == (0, ""), done.stdout
+
+
 def test_a_tolerance_wider_than_the_branch_is_left_to_the_exact_engine():
     rng = np.random.default_rng(5)
     foot = PARROT.replace(thickness=0.0)
