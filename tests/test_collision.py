@@ -78,7 +78,8 @@ def test_one_branch_for_all_is_as_good_as_one_for_each():
 def test_batches_of_both_broadcast():
     foot = SIZES["paper"]
     bones, _ = scattered(foot, 3, seed=3)
-    branch = Branch(np.full((4, 1), 0.3), (0, 0, -0.5))
+    heights = np.array([-0.5, -0.45, -0.55])
+    branch = Branch(np.linspace(0.2, 0.4, 4)[:, None], [0, 0, 1] * heights[:, None])
     exact, other = both(foot, bones, branch)
     assert other.distance.shape == (4, 3, 14)
     assert other.point.shape == (4, 3, 14, 3)

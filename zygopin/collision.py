@@ -7,6 +7,7 @@ of the foot, since FCL's tolerances are absolute; normals come from nearest poin
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, fields
 
 import fcl
@@ -18,6 +19,7 @@ from zygopin.branch import Branch
 from zygopin.clearance import Clearance, Floats, Nearest, dot, norm
 from zygopin.fcl_solids import (
     Solids,
+    bare_distances,
     capsules,
     cored,
     nearest_points,
@@ -102,7 +104,7 @@ def solid_nearest(bones: Floats, solid: Solid) -> Nearest:
     bare = capsules(local, np.zeros(len(local)))
     other, middle, radius = cored(solid, origin, unit)
     gap, near, far = nearest_points(bare, [other] * len(bare), signed=radius == 0)
-    t, core = _core(local[:, 0], local[:, 1] - local[:, 0], near)
+    t, core = _core(local, near)
     apart = (np.abs(gap) > COINCIDENT)[:, None]
     vectors = np.where(apart, np.sign(gap)[:, None] * (near - far), core - middle)
     size = norm(vectors)[:, None]
@@ -159,13 +161,10 @@ def _branch_clearance(toes: _Toes, branch: Branch) -> Clearance:
     unit, own = toes.unit, toes.bones.shape[:-2]
     batch = checks.common_batch("bones and branch", own[:-1], branch.batch_shape)
     shape = (*batch, own[-1])
-    rows, phalanges = _Rows.of(toes, branch, shape), toes.solids
-    if shape != own:
-        places = np.arange(len(phalanges)).reshape(own)
-        phalanges = [phalanges[i] for i in np.broadcast_to(places, shape).ravel()]
+    rows, phalanges = _Rows.of(toes, branch, shape), _spread(toes.solids, own, shape)
     # Objects cost more than queries: those of a branch serve all phalanges it has.
-    share = shape[-1] if branch.batch_shape else max(len(phalanges), 1)
-    record = _at_side(phalanges, rows, share)
+    stems = _spread(_stems(branch, unit), (*branch.batch_shape, 1), shape)
+    record = _at_side(phalanges, stems, rows)
     if not record.lateral.all():
         ends = ~record.lateral
         at_end = _at_end(rows.select(ends))
@@ -180,36 +179,40 @@ def _branch_clearance(toes: _Toes, branch: Branch) -> Clearance:
     )
 
 
+def _stems(branch: Branch, unit: float) -> list[fcl.CollisionObject]:
+    """Slim capsules that stand for branches, their middles beside the base."""
+    batch = branch.batch_shape
+    centre, axis = _rows(branch.centre / unit, batch, 3), _rows(branch.axis, batch, 3)
+    middles = centre - dot(centre, axis)[:, None] * axis
+    slim = _rows(np.asarray(branch.radius) * (SHRUNK / unit), batch)
+    shapes = (fcl.Capsule(radius, 2 * REACH) for radius in slim)
+    return [*map(placed, shapes, quaternions(axis).tolist(), middles)]
+
+
+def _spread(
+    solids: list[fcl.CollisionObject], own: tuple[int, ...], shape: tuple[int, ...]
+) -> list[fcl.CollisionObject]:
+    """Solids of a shape of their own, one for each entry of a wider shape."""
+    if own == shape:
+        return solids
+    if len(solids) == 1:
+        return solids * math.prod(shape)
+    places = np.arange(len(solids)).reshape(own)
+    return [solids[i] for i in np.broadcast_to(places, shape).ravel().tolist()]
+
+
 def _least_skin_distance(
     toes: _Toes, pairs: tuple[NDArray[np.intp], NDArray[np.intp]]
 ) -> Floats:
     """Least distance between the skins of pairs of phalanges."""
     *batch, count = toes.bones.shape[:-2]
-    flat = toes.bones.reshape(-1, count, 2, 3)
-    rows, columns = np.nonzero(_may_be_least(flat, toes.skin, pairs))
-    first, second = (rows * count + side[columns] for side in pairs)
-    one, other = ([toes.solids[i] for i in side] for side in (first, second))
-    # Without nearest points: half the time.
-    distance = np.fromiter(map(fcl.distance, one, other), float, len(rows))
-    least = np.full(len(flat), np.inf)
-    np.minimum.at(least, rows, distance)
-    return least.reshape(batch) * toes.unit
-
-
-def _may_be_least(
-    bones: Floats, radii: Floats, pairs: tuple[NDArray[np.intp], NDArray[np.intp]]
-) -> NDArray[np.bool_]:
-    """Which pairs may be the nearest ones, by the spheres around them, (n, M).
-
-    No pair is farther apart than its middles, none nearer than its spheres.
-    """
-    i, j = pairs
-    start, end = bones[:, :, 0], bones[:, :, 1]
-    middle, size = (start + end) / 2, norm(end - start) / 2
-    offset = middle.take(i, axis=1) - middle.take(j, axis=1)
-    most = norm(offset) - (radii.take(i) + radii.take(j))
-    least = most - (size.take(i, axis=1) + size.take(j, axis=1))
-    return np.asarray(least <= most.min(axis=1, initial=np.inf, keepdims=True))
+    first, second = (side.tolist() for side in pairs)
+    least = []
+    for start in range(0, len(toes.solids), count):
+        place = toes.solids[start : start + count].__getitem__
+        one, other = map(place, first), map(place, second)
+        least.append(min(bare_distances(one, other), default=np.inf))
+    return np.array(least).reshape(batch) * toes.unit
 
 
 @dataclass(frozen=True)
@@ -235,67 +238,57 @@ class _Rows:
             _rows(branch.half_length[..., None] / unit, shape),
         )
 
-    def select(self, mask: NDArray[np.bool_] | slice) -> _Rows:
+    def select(self, mask: NDArray[np.bool_]) -> _Rows:
         """Some of the rows."""
         return _Rows(*(getattr(self, field.name)[mask] for field in fields(self)))
-
-    def lines(self) -> Floats:
-        """From the start of each bone to its end."""
-        return np.asarray(self.bone[:, 1] - self.bone[:, 0])
-
-    def stems(self) -> Solids:
-        """Slim capsules that stand for the branches, their middles beside the base."""
-        middles = self.centre - dot(self.centre, self.axis)[:, None] * self.axis
-        shapes = (fcl.Capsule(radius, 2 * REACH) for radius in SHRUNK * self.radius)
-        return [*map(placed, shapes, quaternions(self.axis), middles)]
 
 
 def _rows(values: Floats, shape: tuple[int, ...], *tail: int) -> Floats:
     """Values that broadcast to a shape, one row for each of its entries."""
+    if values.shape == (*shape, *tail):
+        return values.reshape(-1, *tail)
     wide = np.empty((*shape, *tail))
     wide[...] = values
     return wide.reshape(-1, *tail)
 
 
-def _at_side(phalanges: Solids, rows: _Rows, share: int) -> Clearance:
+def _at_side(phalanges: Solids, stems: Solids, rows: _Rows) -> Clearance:
     """Nearest points on the branches' sides, `lateral` where there is such a side.
 
     Args:
         phalanges: The phalanges.
-        rows: The phalanges and branches, as numbers.
-        share: So many rows after one another have the same branch.
+        stems: What stands for the branch of each.
+        rows: The same as numbers.
     """
-    slims = rows.select(slice(None, None, share)).stems()
-    each = [solid for solid in slims for _ in range(share)]
-    gap, near, far = nearest_points(phalanges, each, signed=False)
+    gap, near, far = nearest_points(phalanges, stems, signed=False)
     # Between capsules FCL's distance is exact, overlapping or not.
     distance = gap - (1 - SHRUNK) * rows.radius
-    lines = rows.lines()
-    t, core = _core(rows.bone[:, 0], lines, near)
+    t, core = _core(rows.bone, near)
     normal = _direction(near - far, gap, rows)
     axial = dot(core - rows.centre, rows.axis)
     lateral = np.abs(axial) - rows.half <= np.minimum(distance + rows.skin, 0.0)
     point = rows.centre + axial[:, None] * rows.axis + rows.radius[:, None] * normal
     offset = (distance + rows.radius + rows.skin)[:, None] * normal
-    vertex = _on_line(t, offset, lines, rows.axis)
-    return Clearance(distance, vertex, point, normal, lateral)
+    return Clearance(distance, _on_line(t, offset, rows), point, normal, lateral)
 
 
 def _at_end(rows: _Rows) -> Clearance:
     """Nearest points on the capped cylinders: bare bones, so that gaps stay open."""
     bare = capsules(rows.bone, np.zeros_like(rows.skin))
-    frames = quaternions(rows.axis)
+    frames = quaternions(rows.axis).tolist()
     shapes = map(fcl.Cylinder, rows.radius, 2 * rows.half)
     solids = [*map(placed, shapes, frames, rows.centre)]
     gap, near, far = nearest_points(bare, solids, signed=True)
     normal = _direction(near - far, gap, rows)
-    t, _ = _core(rows.bone[:, 0], rows.lines(), near)
+    t, _ = _core(rows.bone, near)
     lateral = np.abs(dot(normal, rows.axis)) < SIDEWAYS
     return Clearance(gap - rows.skin, t, far, normal, lateral)
 
 
-def _core(starts: Floats, lines: Floats, points: Floats) -> tuple[Floats, Floats]:
+def _core(bones: Floats, points: Floats) -> tuple[Floats, Floats]:
     """The bones' own points nearest to given points: t in [0, 1], and the points."""
+    starts = bones[:, 0]
+    lines = bones[:, 1] - starts
     t = dot(points - starts, lines) / dot(lines, lines)
     t = np.minimum(np.maximum(t, 0.0), 1.0)
     return t, starts + t[:, None] * lines
@@ -313,13 +306,14 @@ def _direction(offsets: Floats, gaps: Floats, rows: _Rows) -> Floats:
     return np.asarray(vectors / norm(vectors)[:, None])
 
 
-def _on_line(t: Floats, offsets: Floats, lines: Floats, axes: Floats) -> Floats:
+def _on_line(t: Floats, offsets: Floats, rows: _Rows) -> Floats:
     """From the nearest point of the bone to that of its line: one Newton step.
 
     The squared distance from the axis is a parabola along the line, so its slope
     at t gives the vertex. Inside the bone the slope is zero but for rounding.
     """
-    square = dot(lines, lines) - dot(lines, axes) ** 2
+    lines = rows.bone[:, 1] - rows.bone[:, 0]
+    square = dot(lines, lines) - dot(lines, rows.axis) ** 2
     clamped = (np.abs(t - 0.5) > 0.5 - CLAMPED) & (square > 0)
     return t - np.divide(dot(offsets, lines), square, np.zeros_like(t), where=clamped)
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import repeat
 
 import fcl
 import numpy as np
@@ -35,7 +36,7 @@ def capsules(bones: Floats, radii: Floats) -> list[fcl.CollisionObject]:
     checks.require("length of bones", lengths, sized, "positive and finite", remedy)
     thick = (radii >= 0) & np.isfinite(radii)
     checks.require("radii", radii, thick, "at least 0 and finite", remedy)
-    frames = quaternions(lines / lengths[:, None])
+    frames = quaternions(lines / lengths[:, None]).tolist()
     middles = (bones[:, 0] + bones[:, 1]) / 2
     return [*map(placed, map(fcl.Capsule, radii, lengths), frames, middles)]
 
@@ -54,7 +55,7 @@ def cored(
         The solid or its core, its middle, shape (3,), and the radius around the core:
         0 for a solid without one.
     """
-    straight = np.array([1.0, 0.0, 0.0, 0.0])
+    straight = (1.0, 0.0, 0.0, 0.0)
     if isinstance(solid, ConvexMesh):
         vertices = (solid.vertices - origin) / unit
         count = len(solid.triangles)
@@ -76,7 +77,9 @@ def cored(
     return box, centre, 0.0
 
 
-def placed(shape: object, frame: Floats, centre: Floats) -> fcl.CollisionObject:
+def placed(
+    shape: object, frame: Sequence[float], centre: Floats
+) -> fcl.CollisionObject:
     """A shape in its place; setters cost half of what a Transform does.
 
     Args:
@@ -113,6 +116,23 @@ def quaternions(directions: Floats) -> Floats:
     return turns
 
 
+def bare_distances(
+    first: Iterable[fcl.CollisionObject], second: Iterable[fcl.CollisionObject]
+) -> Iterator[float]:
+    """Distances of pairs of solids, without nearest points.
+
+    Args:
+        first: Solids, n of them.
+        second: The other solid of each pair.
+
+    Returns:
+        FCL's distances, n of them, made when they are asked for.
+    """
+    # A result that holds less already is not written to: an eighth of the time.
+    request, full = fcl.DistanceRequest(), fcl.DistanceResult(-np.inf)
+    return map(fcl.distance, first, second, repeat(request), repeat(full))
+
+
 def nearest_points(
     first: Solids, second: Solids, *, signed: bool
 ) -> tuple[Floats, Floats, Floats]:
@@ -129,26 +149,28 @@ def nearest_points(
     Returns:
         Distances, shape (n,), and points on the first and the second, shape (n, 3).
     """
-    request = fcl.DistanceRequest(True)
-    table = np.empty((len(first), 7))
-    for row, one, other in zip(table, first, second, strict=True):
-        result = fcl.DistanceResult()
-        row[0] = fcl.distance(one, other, request, result)
-        row[1:4], row[4:7] = result.nearest_points
-        if signed and row[0] <= 0:
-            row[:] = _contact(one, other, row)
-    return table[:, 0], table[:, 1:4], table[:, 4:7]
+    request, result = fcl.DistanceRequest(True), fcl.DistanceResult()
+    gaps, points = [], [np.empty(0)]
+    for one, other in zip(first, second, strict=True):
+        result.min_distance = np.inf  # it keeps the nearest of all that it is given
+        gap, ends = fcl.distance(one, other, request, result), result.nearest_points
+        if signed and gap <= 0:
+            gap, ends = _contact(one, other, ends)
+        gaps.append(gap)
+        points += ends
+    near_far = np.concatenate(points).reshape(-1, 2, 3)
+    return np.array(gaps), near_far[:, 0], near_far[:, 1]
 
 
 def _contact(
-    one: fcl.CollisionObject, other: fcl.CollisionObject, row: Floats
-) -> Floats:
-    """Minus the depth of an overlap and the deepest points of both, shape (7,)."""
+    one: fcl.CollisionObject, other: fcl.CollisionObject, ends: list[Floats]
+) -> tuple[float, list[Floats]]:
+    """Minus the depth of an overlap, and the deepest points of both."""
     result = fcl.CollisionResult()
     request = fcl.CollisionRequest(num_max_contacts=1, enable_contact=True)
     if not fcl.collide(one, other, request, result):
-        return np.concatenate([[0.0], row[1:]])
+        return 0.0, ends
     contact = result.contacts[0]
     middle, depth = np.asarray(contact.pos), contact.penetration_depth
     half = depth / 2 * np.asarray(contact.normal)
-    return np.concatenate([[-depth], middle + half, middle - half])
+    return -depth, [middle + half, middle - half]

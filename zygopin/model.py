@@ -51,7 +51,8 @@ class FootModel:
             for link in names.bone_links(foot)
         ]
         # Each finger's tip comes after its phalanges: one frame more for each.
-        self._starts = np.arange(foot.phalanx_count) + foot.finger_of_phalanx
+        starts = np.arange(foot.phalanx_count) + foot.finger_of_phalanx
+        self._ends = np.stack((starts, starts + 1), axis=1)
         self._idle: list[_Memory] = []
 
     def __getstate__(self) -> dict[str, Any]:
@@ -128,7 +129,7 @@ class FootModel:
             pin.framesForwardKinematics(self.model, memory.data, row)
             np.concatenate(memory.views, out=out)
         self._idle.append(memory)
-        return origins[..., self._starts[:, None] + [0, 1], :]
+        return origins.take(self._ends, axis=-2)
 
     def _memory(self) -> _Memory:
         """Memory that no other thread works with: some that is idle, or new."""

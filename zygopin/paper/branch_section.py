@@ -189,9 +189,9 @@ def hits_branch(point: Floats) -> bool:
     Returns:
         The answer: the point is a ball of radius zero.
     """
-    turn = quaternions(BRANCH.axis[None])[0]
+    (turn,) = quaternions(BRANCH.axis[None]).tolist()
     solid = placed(fcl.Cylinder(BRANCH.radius, 10.0), turn, BRANCH.centre)
-    ball = placed(fcl.Sphere(0.0), np.array([1.0, 0.0, 0.0, 0.0]), point)
+    ball = placed(fcl.Sphere(0.0), (1.0, 0.0, 0.0, 0.0), point)
     return bool(fcl.collide(ball, solid, fcl.CollisionRequest(), fcl.CollisionResult()))
 
 
