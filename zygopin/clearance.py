@@ -377,9 +377,9 @@ def _length(vectors: Floats) -> Floats:
 
 def dot(first: Floats, second: Floats) -> Floats:
     """Scalar products along the last axis."""
-    return np.asarray(np.einsum("...i,...i->...", first, second))
+    return np.asarray(np.vecdot(first, second))
 
 
 def norm(vectors: Floats) -> Floats:
     """Lengths along the last axis."""
-    return np.sqrt(dot(vectors, vectors))
+    return np.asarray(np.sqrt(np.vecdot(vectors, vectors)))

@@ -148,9 +148,10 @@ class _Toes:
 
     @classmethod
     def of(cls, bones: Floats, radii: Floats) -> _Toes:
-        remedy = "give bones of a foot"
-        checks.require("bones", bones, np.isfinite(bones), "finite", remedy)
         unit = _unit(bones)
+        if not math.isfinite(unit):
+            remedy = "give bones of a foot"
+            checks.require("bones", bones, np.isfinite(bones), "finite", remedy)
         bones, skin = bones / unit, radii / unit
         solids = capsules(bones.reshape(-1, 2, 3), _rows(skin, bones.shape[:-2]))
         return cls(unit, bones, skin, solids)
@@ -320,4 +321,6 @@ def _on_line(t: Floats, offsets: Floats, rows: _Rows) -> Floats:
 
 def _unit(bones: Floats) -> float:
     """The farthest that any junction is from the base: the unit of length."""
-    return float(np.sqrt(dot(bones, bones).max(initial=0.0))) or 1.0
+    with np.errstate(over="ignore"):  # what is too far is refused, not warned of
+        square = dot(bones, bones).max(initial=0.0)
+    return float(np.sqrt(square)) or 1.0
