@@ -115,6 +115,14 @@ class Branch:
         return checks.read_only(np.array(np.divide(length, 2.0)))
 
     @cached_property
+    def rows(self) -> NDArray[np.float64]:
+        """Centre, axis, radius, half-length side by side, shape (…, 8), read-only."""
+        rows = np.empty((*self.batch_shape, 8))
+        rows[..., :3], rows[..., 3:6] = self.centre, self.axis
+        rows[..., 6], rows[..., 7] = self.radius, self.half_length
+        return checks.read_only(rows)
+
+    @cached_property
     def largest_extent(self) -> float:
         """Largest of the batch's radius + |centre| [m]."""
         extent = np.asarray(self.radius) + np.linalg.norm(self.centre, axis=-1)

@@ -162,9 +162,10 @@ def _branch_clearance(toes: _Toes, branch: Branch) -> Clearance:
     unit, own = toes.unit, toes.bones.shape[:-2]
     batch = checks.common_batch("bones and branch", own[:-1], branch.batch_shape)
     shape = (*batch, own[-1])
-    rows, phalanges = _Rows.of(toes, branch, shape), _spread(toes.solids, own, shape)
+    branches = branch.rows[..., None, :] / np.array([unit] * 3 + [1.0] * 3 + [unit] * 2)
+    rows, phalanges = _Rows.of(toes, branches, shape), _spread(toes.solids, own, shape)
     # Objects cost more than queries: those of a branch serve all phalanges it has.
-    stems = _spread(_stems(branch, unit), (*branch.batch_shape, 1), shape)
+    stems = _spread(_stems(branches), branches.shape[:-1], shape)
     record = _at_side(phalanges, stems, rows)
     if not record.lateral.all():
         ends = ~record.lateral
@@ -180,13 +181,12 @@ def _branch_clearance(toes: _Toes, branch: Branch) -> Clearance:
     )
 
 
-def _stems(branch: Branch, unit: float) -> list[fcl.CollisionObject]:
+def _stems(branches: Floats) -> list[fcl.CollisionObject]:
     """Slim capsules that stand for branches, their middles beside the base."""
-    batch = branch.batch_shape
-    centre, axis = _rows(branch.centre / unit, batch, 3), _rows(branch.axis, batch, 3)
+    flat = branches.reshape(-1, 8)
+    centre, axis, radius = flat[:, :3], flat[:, 3:6], flat[:, 6]
     middles = centre - dot(centre, axis)[:, None] * axis
-    slim = _rows(np.asarray(branch.radius) * (SHRUNK / unit), batch)
-    shapes = (fcl.Capsule(radius, 2 * REACH) for radius in slim)
+    shapes = (fcl.Capsule(slim, 2 * REACH) for slim in SHRUNK * radius)
     return [*map(placed, shapes, quaternions(axis).tolist(), middles)]
 
 
@@ -228,15 +228,12 @@ class _Rows:
     half: Floats
 
     @classmethod
-    def of(cls, toes: _Toes, branch: Branch, shape: tuple[int, ...]) -> _Rows:
-        unit = toes.unit
+    def of(cls, toes: _Toes, branches: Floats, shape: tuple[int, ...]) -> _Rows:
+        wide = _rows(branches, shape, 8)
         return cls(
             _rows(toes.bones, shape, 2, 3),
             _rows(toes.skin, shape),
-            _rows(branch.centre[..., None, :] / unit, shape, 3),
-            _rows(branch.axis[..., None, :], shape, 3),
-            _rows(np.asarray(branch.radius)[..., None] / unit, shape),
-            _rows(branch.half_length[..., None] / unit, shape),
+            *(wide[:, :3], wide[:, 3:6], wide[:, 6], wide[:, 7]),
         )
 
     def select(self, mask: NDArray[np.bool_]) -> _Rows:

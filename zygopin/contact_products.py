@@ -46,19 +46,16 @@ def least_products(foot: Foot, tangent: Booleans, *vectors: Floats) -> Floats:
         The least products, shape (k, …); NaN without such a pair.
     """
     i, j, _ = opposed_pairs(foot)
-    flat = tangent.reshape(-1, tangent.shape[-1])
-    both = flat.take(i, axis=1) & flat.take(j, axis=1)
-    some = both.any(axis=1)
-    wide = np.empty((len(vectors), *tangent.shape, 3))
-    for room, given in zip(wide, vectors, strict=True):
-        room[...] = given
-    wide = wide.reshape(len(vectors), *flat.shape, 3)
+    both = tangent.take(i, axis=-1) & tangent.take(j, axis=-1)
+    some = both.any(axis=-1)
     if some.all():
-        least = _least(foot, both, wide)
-    else:
-        least = np.full(wide.shape[:2], np.nan)
-        least[:, some] = _least(foot, both[some], wide[:, some])
-    return least.reshape(len(vectors), *tangent.shape[:-1])
+        return np.array([_least(foot, both, each) for each in vectors])
+    least = np.full((len(vectors), *some.shape), np.nan)
+    if some.any():
+        shape = *tangent.shape, 3
+        for room, each in zip(least, vectors, strict=True):
+            room[some] = _least(foot, both[some], np.broadcast_to(each, shape)[some])
+    return least
 
 
 def base_to_tip(bones: Floats) -> Floats:
@@ -76,17 +73,17 @@ def base_to_tip(bones: Floats) -> Floats:
 
 
 def _least(foot: Foot, both: Booleans, vectors: Floats) -> Floats:
-    """Least products over pairs of which each pose has one, shape (k, n).
+    """Least products over pairs, shape (…).
 
     Args:
         foot: The foot.
-        both: Whether both phalanges of a pair are tangent, shape (n, M).
-        vectors: A vector for each phalanx, shape (k, n, P, 3).
+        both: Whether both phalanges of a pair are tangent, shape (…, M).
+        vectors: A vector for each phalanx, shape (…, P, 3).
     """
     *_, places = opposed_pairs(foot)
     # All products at once: cheaper than to gather the vectors of each pair first.
     products = vectors @ vectors.swapaxes(-1, -2)
-    products = products.reshape(*products.shape[:2], foot.phalanx_count**2)
+    products = products.reshape(*products.shape[:-2], foot.phalanx_count**2)
     opposed = products.take(places, axis=-1)
     return np.asarray(np.where(both, opposed, np.inf).min(axis=-1, initial=np.inf))
 

@@ -79,13 +79,10 @@ def _branch_clearance(bones: Floats, radii: Floats, branch: Branch) -> Clearance
     batch = checks.common_batch(
         "bones and branch", bones.shape[:-3], branch.batch_shape
     )
-    rows = np.empty((*branch.batch_shape, 8))
-    rows[..., :3], rows[..., 3:6] = branch.centre, branch.axis
-    rows[..., 6], rows[..., 7] = branch.radius, branch.half_length
     shape = (math.prod(batch), len(radii))
     side = Side(*(np.empty((*shape, *tail)) for tail in ((), (), (3,), (3,))))
     lateral, left = np.ones(shape, bool), np.zeros(shape[0], bool)
-    poses, branches = _flat(bones, batch, 3), _flat(rows, batch, 1)
+    poses, branches = _flat(bones, batch, 3), _flat(np.array(branch.rows), batch, 1)
     if side_clearance(poses, radii, branches, side, left):
         part = np.flatnonzero(left)
         some = entries(bones, batch, part, 3), radii, branch.entries(batch, part)
