@@ -266,8 +266,9 @@ def _at_side(phalanges: Solids, stems: Solids, rows: _Rows) -> Clearance:
     axial = dot(core - rows.centre, rows.axis)
     lateral = np.abs(axial) - rows.half <= np.minimum(distance + rows.skin, 0.0)
     point = rows.centre + axial[:, None] * rows.axis + rows.radius[:, None] * normal
-    offset = (distance + rows.radius + rows.skin)[:, None] * normal
-    return Clearance(distance, _on_line(t, offset, rows), point, normal, lateral)
+    away = distance + rows.radius + rows.skin
+    vertex = _on_line(t, away, normal, rows)
+    return Clearance(distance, vertex, point, normal, lateral)
 
 
 def _at_end(rows: _Rows) -> Clearance:
@@ -304,7 +305,7 @@ def _direction(offsets: Floats, gaps: Floats, rows: _Rows) -> Floats:
     return np.asarray(vectors / norm(vectors)[:, None])
 
 
-def _on_line(t: Floats, offsets: Floats, rows: _Rows) -> Floats:
+def _on_line(t: Floats, away: Floats, normal: Floats, rows: _Rows) -> Floats:
     """From the nearest point of the bone to that of its line: one Newton step.
 
     The squared distance from the axis is a parabola along the line, so its slope
@@ -313,7 +314,8 @@ def _on_line(t: Floats, offsets: Floats, rows: _Rows) -> Floats:
     lines = rows.bone[:, 1] - rows.bone[:, 0]
     square = dot(lines, lines) - dot(lines, rows.axis) ** 2
     clamped = (np.abs(t - 0.5) > 0.5 - CLAMPED) & (square > 0)
-    return t - np.divide(dot(offsets, lines), square, np.zeros_like(t), where=clamped)
+    slope = away * dot(normal, lines)
+    return t - np.divide(slope, square, np.zeros_like(t), where=clamped)
 
 
 def _unit(bones: Floats) -> float:

@@ -53,6 +53,7 @@ class FootModel:
         # Each finger's tip comes after its phalanges: one frame more for each.
         starts = np.arange(foot.phalanx_count) + foot.finger_of_phalanx
         self._ends = np.stack((starts, starts + 1), axis=1)
+        self._neutral = pin.neutral(self.model)
         self._idle: list[_Memory] = []
 
     def __getstate__(self) -> dict[str, Any]:
@@ -98,7 +99,7 @@ class FootModel:
             shapes = batch, turns.shape[:-1]
             batch = checks.common_batch("controls and azimuths", *shapes)
         q = np.empty((*batch, self.model.nq))
-        q[...] = pin.neutral(self.model)
+        q[...] = self._neutral
         q[..., self._flexion] = self.foot.omega * controls
         if turns is not None:
             q[..., self._reversal] = turns[..., self._turning]
