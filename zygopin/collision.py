@@ -137,7 +137,7 @@ class _Toes:
     Attributes:
         unit: The unit [m].
         bones: Bones, shape (…, P, 2, 3).
-        skin: Skin radii, shape (P,).
+        skin: Skin radii, shape (…, P).
         solids: A capsule for each phalanx of each pose, in C order.
     """
 
@@ -152,8 +152,9 @@ class _Toes:
         if not math.isfinite(unit):
             remedy = "give bones of a foot"
             checks.require("bones", bones, np.isfinite(bones), "finite", remedy)
-        bones, skin = bones / unit, radii / unit
-        solids = capsules(bones.reshape(-1, 2, 3), _rows(skin, bones.shape[:-2]))
+        bones, skin = bones / unit, np.empty(bones.shape[:-2])
+        skin[...] = radii / unit
+        solids = capsules(bones.reshape(-1, 2, 3), skin.reshape(-1))
         return cls(unit, bones, skin, solids)
 
 
@@ -295,9 +296,9 @@ def _core(bones: Floats, points: Floats) -> tuple[Floats, Floats]:
 
 def _direction(offsets: Floats, gaps: Floats, rows: _Rows) -> Floats:
     """Unit vectors from branch to phalanx; across both where they cross."""
-    vectors = np.sign(gaps)[:, None] * offsets
-    met = np.abs(gaps) <= COINCIDENT
-    if met.any():
+    vectors = offsets
+    if gaps.min(initial=np.inf) <= COINCIDENT:
+        vectors, met = np.sign(gaps)[:, None] * offsets, np.abs(gaps) <= COINCIDENT
         axis, bone = rows.axis[met], rows.bone[met]
         across = np.cross(axis, bone[:, 1] - bone[:, 0])
         spare = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis), axis=1)])
